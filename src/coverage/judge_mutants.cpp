@@ -16,7 +16,6 @@
 #include "core/files/output.h"
 #include "core/script/script.h"
 #include "coverage/coverage.h"
-#include "coverage/engine/mutants/judge.h"
 #include "coverage/engine/mutants/mutants.h"
 #include "coverage/report/coverage_report.h"
 #include "runtime/base/text.h"

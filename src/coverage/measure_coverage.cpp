@@ -2,7 +2,6 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -31,8 +30,7 @@ void watch_missions(const std::vector<Mission>& missions, std::optional<std::uin
   if (missions.empty()) return;
   const auto watch = [&](std::size_t number) {
     const Mission& mission = missions[number];
-    SilentRun silent;
-    return run_monitored(*mission.catalog, goals_of(mission), mission.script, options, silent);
+    return run_monitored(*mission.catalog, goals_of(mission), mission.script, options);
   };
   Progress progress("solving", missions.size());
   OrderedWork<MonitoredResult> work(

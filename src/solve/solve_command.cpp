@@ -1,9 +1,7 @@
-#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <fmt/core.h>

@@ -4,21 +4,24 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <system_error>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include "core/command_line/command_line.h"
+#include "core/files/file_set.h"
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
+#include "core/property/properties.h"
 #include "core/support/system.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
+#include "runtime/compiled/compiled_catalog.h"
 #include "verify/report/verify_report.h"
 #include "verify/verify.h"
 
@@ -29,6 +32,111 @@ namespace {
 namespace fs = std::filesystem;
 
 using Clock = std::chrono::steady_clock;
+
+/// What a command line asks about, checked before anything is explored.
+struct VerifyQuestions {
+  std::shared_ptr<const CompiledCatalog> catalog;
+  std::vector<std::unique_ptr<const PropertyFile>> files;
+  std::shared_ptr<const CompiledCatalog> old_catalog;  ///< to compare with, or null
+};
+
+/// Reads the files of a command line. Findings and other problems go to standard error.
+class QuestionLoader {
+ public:
+  /// `paths`: a catalog, which may be missing if the property files name theirs, then property
+  /// files; "-" is standard input. `old_catalog`: to compare with. Empty if anything is wrong.
+  [[nodiscard]] std::optional<VerifyQuestions> load(const std::vector<std::string>& paths,
+                                                    const std::optional<std::string>& old_catalog);
+
+  /// The findings about the files.
+  [[nodiscard]] const std::vector<Diagnostic>& findings() const { return files_.findings(); }
+
+ private:
+  void add_first(const std::string& path);
+  void add_path(const std::string& path);
+  void add_properties(const InputFile& file);
+  void take_catalog(const std::shared_ptr<const CheckedCatalog>& catalog);
+  [[nodiscard]] bool find_catalog(const InputFile& file);
+  void refuse(const InputFile& file, const char* what);
+
+  FileSet files_;
+  VerifyQuestions questions_;
+  bool is_given_ = false;                     ///< the catalog, on the command line
+  std::optional<std::string> named_catalog_;  ///< path of the one that the property files name
+  bool has_failed_ = false;
+};
+
+std::optional<VerifyQuestions> QuestionLoader::load(const std::vector<std::string>& paths,
+                                                    const std::optional<std::string>& old_catalog) {
+  add_first(paths.front());
+  for (std::size_t place = 1; place < paths.size(); ++place) add_path(paths[place]);
+  if (old_catalog) {
+    if (const auto catalog = files_.load(*old_catalog)) questions_.old_catalog = catalog->compiled;
+    if (questions_.old_catalog == nullptr) has_failed_ = true;
+  }
+  files_.print_findings();
+  if (has_failed_) return std::nullopt;
+  return std::move(questions_);
+}
+
+void QuestionLoader::add_first(const std::string& path) {
+  const auto first = files_.read(path);
+  if (first && first->is(FileKind::properties)) return add_properties(*first);
+  if (first && first->is(FileKind::script)) {
+    return refuse(*first, "is a script; expected a catalog or a property file here");
+  }
+  is_given_ = true;
+  if (first) take_catalog(files_.load(*first));
+  has_failed_ = questions_.catalog == nullptr;
+}
+
+void QuestionLoader::add_path(const std::string& path) {
+  const auto file = files_.read(path);
+  if (!file) {
+    has_failed_ = true;
+  } else if (file->is(FileKind::catalog) || file->is(FileKind::compiled)) {
+    refuse(*file, "is a catalog; expected a property file here (a catalog goes first)");
+  } else if (file->is(FileKind::script)) {
+    refuse(*file, "is a script; expected a property file here");
+  } else {
+    add_properties(*file);
+  }
+}
+
+void QuestionLoader::refuse(const InputFile& file, const char* what) {
+  complain("{} {}", quote(file.name), what);
+  has_failed_ = true;
+}
+
+void QuestionLoader::take_catalog(const std::shared_ptr<const CheckedCatalog>& catalog) {
+  if (catalog != nullptr) questions_.catalog = catalog->compiled;
+}
+
+void QuestionLoader::add_properties(const InputFile& file) {
+  std::optional<PropertyFile> properties;
+  if (find_catalog(file)) properties = files_.read_properties(file, *questions_.catalog);
+  if (properties) {
+    questions_.files.push_back(std::make_unique<const PropertyFile>(std::move(*properties)));
+  } else {
+    has_failed_ = true;
+  }
+}
+
+/// Whether there is a usable catalog for this property file.
+bool QuestionLoader::find_catalog(const InputFile& file) {
+  if (is_given_) return questions_.catalog != nullptr;
+  const std::optional<NamedCatalog> named = files_.expect_catalog(file);
+  if (!named) return false;
+  if (!named_catalog_) {
+    named_catalog_ = named->path;
+    take_catalog(files_.load(*named));
+  } else if (named->path != *named_catalog_ && !is_same_file(*named_catalog_, named->path)) {
+    complain("{}: this property file is about another catalog, {}, than those before it, {}",
+             named->place, quote(named->path), quote(*named_catalog_));
+    return false;
+  }
+  return questions_.catalog != nullptr;
+}
 
 /// The tasks that are named in --cut-sets. Empty if the catalog lacks one, which is reported.
 std::optional<std::vector<TaskId>> find_tasks(const CompiledCatalog& catalog,
@@ -250,15 +358,18 @@ class Call {
     return reported.comparison.witness ? replay_difference(reported) : exit_ok;
   }
 
+  [[nodiscard]] Style style_of_replays() const {
+    return options_.format == "text" ? style_for(options_.output) : plain_style();
+  }
+
   int replay_difference(ReportedComparison& reported) {
-    const bool is_for_people = options_.format == "text" && options_.output == "-";
-    const Style style = is_for_people ? style_for(stdout) : plain_style();
+    const Style style = style_of_replays();
     Witness& witness = *reported.comparison.witness;
     witness.script.file = "difference";
-    reported.with_new = replay(catalog_, witness.script, style);
+    reported.with_new = replay(catalog_, witness.script, nullptr, style);
     Script& of_old = reported.comparison.old_script;
     of_old.file = witness.script.file;
-    reported.with_old = replay(*questions_.old_catalog, of_old, style);
+    reported.with_old = replay(*questions_.old_catalog, of_old, nullptr, style);
     if (!options_.scripts) return exit_ok;
     const fs::path path = fs::path(*options_.scripts) / "difference.mission.yaml";
     reported.script_path = path.string();
@@ -341,8 +452,7 @@ class Call {
 
   /// Runs all counterexamples and witnesses, and writes them to files.
   int replay_scripts() {
-    const bool is_for_people = options_.format == "text" && options_.output == "-";
-    const Style style = is_for_people ? style_for(stdout) : plain_style();
+    const Style style = style_of_replays();
     std::set<std::string> taken;
     for (VerifyPart& part : result_.parts) {
       for (Answer& answer : part.verification.answers) {
@@ -352,7 +462,7 @@ class Call {
         answer.witness->script.file =
             fmt::format("{}:{}: {}", part.file->path, answer.property->line,
                         title_of(catalog_, *answer.property));
-        reported.replay = replay(catalog_, answer, style);
+        reported.replay = replay(catalog_, answer.witness->script, answer.property, style);
         if (const int status = check_replay(answer, *reported.replay); status != exit_ok) {
           return status;
         }
@@ -410,78 +520,6 @@ int verify(const VerifyOptions& options) {
     return exit_unusable;
   }
   return Call(options, std::move(*questions)).run();
-}
-
-std::optional<VerifyQuestions> QuestionLoader::load(const std::vector<std::string>& paths,
-                                                    const std::optional<std::string>& old_catalog) {
-  add_first(paths.front());
-  for (std::size_t place = 1; place < paths.size(); ++place) add_path(paths[place]);
-  if (old_catalog) {
-    if (const auto catalog = files_.load(*old_catalog)) questions_.old_catalog = catalog->compiled;
-    if (questions_.old_catalog == nullptr) has_failed_ = true;
-  }
-  files_.print_findings();
-  if (has_failed_) return std::nullopt;
-  return std::move(questions_);
-}
-
-void QuestionLoader::add_first(const std::string& path) {
-  const auto first = files_.read(path);
-  if (first && first->is(FileKind::properties)) return add_properties(*first);
-  if (first && first->is(FileKind::script)) {
-    return refuse(*first, "is a script; expected a catalog or a property file here");
-  }
-  is_given_ = true;
-  if (first) take_catalog(files_.load(*first));
-  has_failed_ = questions_.catalog == nullptr;
-}
-
-void QuestionLoader::add_path(const std::string& path) {
-  const auto file = files_.read(path);
-  if (!file) {
-    has_failed_ = true;
-  } else if (file->is(FileKind::catalog) || file->is(FileKind::compiled)) {
-    refuse(*file, "is a catalog; expected a property file here (a catalog goes first)");
-  } else if (file->is(FileKind::script)) {
-    refuse(*file, "is a script; expected a property file here");
-  } else {
-    add_properties(*file);
-  }
-}
-
-void QuestionLoader::refuse(const InputFile& file, const char* what) {
-  complain("{} {}", quote(file.name), what);
-  has_failed_ = true;
-}
-
-void QuestionLoader::take_catalog(const std::shared_ptr<const CheckedCatalog>& catalog) {
-  if (catalog != nullptr) questions_.catalog = catalog->compiled;
-}
-
-void QuestionLoader::add_properties(const InputFile& file) {
-  std::optional<PropertyFile> properties;
-  if (find_catalog(file)) properties = files_.read_properties(file, *questions_.catalog);
-  if (properties) {
-    questions_.files.push_back(std::make_unique<const PropertyFile>(std::move(*properties)));
-  } else {
-    has_failed_ = true;
-  }
-}
-
-/// Whether there is a usable catalog for this property file.
-bool QuestionLoader::find_catalog(const InputFile& file) {
-  if (is_given_) return questions_.catalog != nullptr;
-  const std::optional<NamedCatalog> named = files_.expect_catalog(file);
-  if (!named) return false;
-  if (!named_catalog_) {
-    named_catalog_ = named->path;
-    take_catalog(files_.load(*named));
-  } else if (named->path != *named_catalog_ && !is_same_file(*named_catalog_, named->path)) {
-    complain("{}: this property file is about another catalog, {}, than those before it, {}",
-             named->place, quote(named->path), quote(*named_catalog_));
-    return false;
-  }
-  return questions_.catalog != nullptr;
 }
 
 }  // namespace cbc::cli

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "coverage/engine/goal_graph.h"
+#include "coverage/engine/goal_search.h"
 
 namespace cbc::mission_plan_test {
 namespace {

@@ -388,21 +388,6 @@ class PlainWatch {
   std::set<std::size_t> gave_way_;
 };
 
-class Watched final : public RunListener {
- public:
-  explicit Watched(GoalMonitor& watch) : watch_(watch) {}
-  void on_decision(const EventRecord& record, const Circumstances& circumstances,
-                   const cbc::Assignment* solution) override {
-    watch_.on_decision(record, circumstances, solution);
-  }
-  void on_event(const EventRecord& record, const Step* /*step*/, const cbc::State& state) override {
-    watch_.on_event(record, state);
-  }
-
- private:
-  GoalMonitor& watch_;
-};
-
 std::string key_of(const CompiledCatalog& catalog, const Goal& goal) {
   std::string key(name_of(goal.kind));
   const auto add = [&](std::string_view name) { key += " " + std::string(name); };
@@ -463,8 +448,7 @@ void compare(const Case& inputs, std::uint64_t seed, Statistics& statistics) {
   cbc::State first(catalog);
   first.change_situation(script->situation.availability, script->situation.variables);
   watch.begin(first);
-  Watched watched(watch);
-  demand(run_script(catalog, *script, {}, watched).status == Coordinator::Status::ok, "it ends");
+  demand(run_script(catalog, *script, {}, watch).status == Coordinator::Status::ok, "it ends");
   Keys met;
   for (std::size_t goal = 0; goal < goals.size(); ++goal) {
     if (watch.met()[goal] == 0) continue;

@@ -41,8 +41,7 @@ std::vector<std::uint8_t> run_text(const CompiledCatalog& catalog, const std::ve
   demand(document != nullptr, "it is no YAML: " + text);
   const auto script = read_script(*document, catalog, Severity::warning, diagnostics);
   demand(script.has_value(), "the script is refused: " + text);
-  SilentRun silent;
-  MonitoredResult watched = run_monitored(catalog, goals, *script, {}, silent);
+  MonitoredResult watched = run_monitored(catalog, goals, *script, {});
   demand(watched.result.status == Coordinator::Status::ok, "it ends: " + text);
   demand(watched.result.failed == 0, "an expectation fails: " + text);
   return std::move(watched.met);

@@ -23,7 +23,6 @@
 #include "core/script/runner.h"
 #include "core/yaml/document.h"
 #include "coverage/engine/goal_proof.h"
-#include "coverage/engine/mutants/judge.h"
 #include "coverage/engine/mutants/mutants.h"
 #include "demand.h"
 #include "model.h"

@@ -100,8 +100,7 @@ void check(Random& random, std::string& shown, oracle::Statistics& statistics) {
     const auto document = yaml::parse(text, "script.yaml", diagnostics);
     const auto script = read_script(*document, catalog, Severity::note, diagnostics);
     demand(script.has_value(), "the script is refused");
-    SilentRun silent;
-    const MonitoredResult watched = run_monitored(catalog, goals, *script, {}, silent);
+    const MonitoredResult watched = run_monitored(catalog, goals, *script, {});
     for (std::size_t goal = 0; goal < goals.size(); ++goal) {
       if (watched.met[goal] == 0) continue;
       met[goal] = 1;

@@ -1,7 +1,6 @@
 #include "core/report/failure_explanation.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <utility>
 
 #include <fmt/format.h>

@@ -1,8 +1,6 @@
 #include "core/report/run_json.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>

@@ -1,9 +1,7 @@
 #include "core/support/wording.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <numeric>
 #include <utility>
 

@@ -30,28 +30,6 @@ BehaviorId behavior_in(const CompiledCatalog& catalog, TaskId task, std::uint32_
   return index == none ? none : catalog.values[task][index].behavior;
 }
 
-/// Forwards everything, and monitors it.
-class MonitoredRun final : public RunListener {
- public:
-  MonitoredRun(RunListener& listener, GoalMonitor& monitor)
-      : listener_(listener), monitor_(monitor) {}
-
-  void on_decision(const EventRecord& record, const Circumstances& circumstances,
-                   const Assignment* solution) override {
-    monitor_.on_decision(record, circumstances, solution);
-  }
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
-    monitor_.on_event(record, state);
-    listener_.on_event(record, step, state);
-  }
-  void on_failure(const Failure& failure) override { listener_.on_failure(failure); }
-  void on_end(const State& state) override { listener_.on_end(state); }
-
- private:
-  RunListener& listener_;
-  GoalMonitor& monitor_;
-};
-
 }  // namespace
 
 GoalFacts::GoalFacts(const CompiledCatalog& catalog, std::size_t goals)
@@ -233,7 +211,7 @@ void GoalMonitor::ask_for_deciding(const EventRecord& record, const Circumstance
   if (relaxation_.was_protection_alone()) met_[number] = 1;
 }
 
-void GoalMonitor::on_event(const EventRecord& record, const State& state) {
+void GoalMonitor::on_event(const EventRecord& record, const Step* /*step*/, const State& state) {
   for (const Change& change : record.changes) {
     if (change.is_activation && !change.success) meet(Kind::behavior_failed, change.behavior);
   }
@@ -262,14 +240,12 @@ void GoalMonitor::note_situation(const State& state) {
 }
 
 MonitoredResult run_monitored(const CompiledCatalog& catalog, std::span<const Goal> goals,
-                              const Script& script, const CoordinatorOptions& options,
-                              RunListener& listener) {
+                              const Script& script, const CoordinatorOptions& options) {
   GoalMonitor monitor(catalog, goals, options);
   State first(catalog);
   first.change_situation(script.situation.availability, script.situation.variables);
   monitor.begin(first);
-  MonitoredRun monitored(listener, monitor);
-  RunResult result = run_script(catalog, script, options, monitored);
+  RunResult result = run_script(catalog, script, options, monitor);
   return {std::move(result), monitor.met()};
 }
 

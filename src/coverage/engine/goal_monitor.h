@@ -43,7 +43,7 @@ struct GoalFacts {
 
 /// Sees the events of a coordinator, and notes the goals that they meet (docs/coverage.md,
 /// "Goals"). Not for use by several threads.
-class GoalMonitor {
+class GoalMonitor final : public RunListener {
  public:
   /// `goals` are those of find_goals. Catalog and goals must outlive this object.
   GoalMonitor(const CompiledCatalog& catalog, std::span<const Goal> goals,
@@ -51,10 +51,9 @@ class GoalMonitor {
 
   /// Begins a mission: nothing runs, and the situation is that of the state.
   void begin(const State& state);
-  /// See EventListener.
   void on_decision(const EventRecord& record, const Circumstances& circumstances,
-                   const Assignment* solution);
-  void on_event(const EventRecord& record, const State& state);
+                   const Assignment* solution) override;
+  void on_event(const EventRecord& record, const Step* step, const State& state) override;
 
   /// Where there are no times: any failure may be a timeout.
   void take_failures_for_timeouts() { takes_failures_for_timeouts_ = true; }
@@ -119,7 +118,6 @@ struct MonitoredResult {
 /// Runs a script as run_script does, and monitors it. `goals` are those of find_goals.
 [[nodiscard]] MonitoredResult run_monitored(const CompiledCatalog& catalog,
                                             std::span<const Goal> goals, const Script& script,
-                                            const CoordinatorOptions& options,
-                                            RunListener& listener);
+                                            const CoordinatorOptions& options);
 
 }  // namespace cbc

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <deque>
 #include <map>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>

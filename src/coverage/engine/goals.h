@@ -46,12 +46,6 @@ struct Goal {
   std::uint32_t variable = none;
   std::uint32_t value = none;
   std::vector<std::uint32_t> lines;  ///< of the catalog, ascending; see add_lines
-
-  /// The same kind, about the same.
-  [[nodiscard]] bool is_same(const Goal& other) const {
-    return kind == other.kind && task == other.task && other_task == other.other_task &&
-           behavior == other.behavior && variable == other.variable && value == other.value;
-  }
 };
 
 /// The word of a kind in JSON.

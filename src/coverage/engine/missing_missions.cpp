@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <set>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -46,7 +45,6 @@ class MissionFinder {
     graph_ = explore_goals(catalog_, goals_, missing_, assumptions_, of_exploration);
     result_.error = graph_.error;
     result_.states = graph_.state_count();
-    result_.moves = graph_.moves;
     const bool has_all_groups = graph_.parts.size() == catalog_.group_count();
     if (graph_.error || is_stopped() || !has_all_groups) return std::move(result_);
     result_.reached = Phase::planning;

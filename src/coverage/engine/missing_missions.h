@@ -10,7 +10,7 @@
 
 #include "core/property/properties.h"
 #include "core/script/script.h"
-#include "coverage/engine/goal_graph.h"
+#include "coverage/engine/goal_search.h"
 #include "coverage/engine/goals.h"
 #include "runtime/compiled/compiled_catalog.h"
 
@@ -43,7 +43,6 @@ struct MissingMissions {
   std::uint32_t most_events = 0;       ///< of a script, with those of the clock
   std::vector<std::uint32_t> partial;  ///< groups whose exploration a limit ended
   std::uint64_t states = 0;
-  std::uint64_t moves = 0;
   Phase reached = Phase::done;       ///< what is_stopped ended; then the rest means nothing
   std::optional<std::string> error;  ///< see Model::find_obstacle()
   std::string fault;                 ///< of cbc: a script does not do what was proven

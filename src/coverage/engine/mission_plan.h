@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "coverage/engine/goal_graph.h"
+#include "coverage/engine/goal_search.h"
 
 namespace cbc {
 

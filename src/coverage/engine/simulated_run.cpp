@@ -94,8 +94,8 @@ class MissionSimulator::Simulation final : public RunListener {
                    const Assignment* solution) override {
     monitor_.on_decision(record, circumstances, solution);
   }
-  void on_event(const EventRecord& record, const Step* /*step*/, const State& state) override {
-    monitor_.on_event(record, state);
+  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+    monitor_.on_event(record, step, state);
     if (record.origin == Origin::script && form_of(record.verb).is_decided) {
       outcome_ = record.outcome;
     }

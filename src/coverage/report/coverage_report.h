@@ -15,7 +15,6 @@
 #include "coverage/engine/coverage.h"
 #include "coverage/engine/goals.h"
 #include "coverage/engine/missing_missions.h"
-#include "coverage/engine/mutants/judge.h"
 #include "coverage/engine/mutants/mutants.h"
 #include "runtime/compiled/compiled_catalog.h"
 

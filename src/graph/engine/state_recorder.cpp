@@ -1,10 +1,6 @@
 #include "graph/engine/state_recorder.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdint>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "core/report/words.h"

@@ -25,50 +25,40 @@ constexpr std::size_t line_length = 10;  // characters, about
 
 /// A quoted string of DOT. Only the quote itself needs a backslash; in labels, backslashes and
 /// ampersands must be escaped as well.
-void append_dot_id(std::string& dot, std::string_view id) {
-  dot += '"';
+std::string dot_id(std::string_view id) {
+  std::string dot = "\"";
   for (const char character : id) {
     if (character == '"') dot += '\\';
     dot += character;
   }
-  dot += '"';
+  return dot + '"';
 }
 
-void append_shown(std::string& dot, std::string_view text) {
+std::string shown(std::string_view text) {
+  std::string dot;
   for (const char character : text) {
     if (character == '"' || character == '\\') dot += '\\';
     dot += character;
     if (character == '&') dot += "amp;";
   }
+  return dot;
 }
 
 /// The attributes of a node or an edge: "[a=b, c=d]", or nothing.
 class DotAttributes {
  public:
   void add(std::string_view name, std::string_view value) {
-    text_ += text_.empty() ? " [" : ", ";
-    text_ += name;
-    text_ += '=';
-    text_ += value;
+    text_ += fmt::format("{}{}={}", text_.empty() ? " [" : ", ", name, value);
   }
   void add_color(std::string_view name, std::string_view color) {
-    add(name, '"' + std::string(color) + '"');
+    add(name, fmt::format("\"{}\"", color));
   }
-  void add_shown(std::string_view name, std::string_view text) {
-    std::string value = "\"";
-    append_shown(value, text);
-    add(name, value + '"');
-  }
+  void add_label(std::string_view text) { add("label", fmt::format("\"{}\"", shown(text))); }
   /// Long names are broken into lines, since pictures tend to be wide rather than high.
   void add_label(const draw::Node& node) {
-    std::string value = "\"";
     std::vector<std::string_view> lines = wrap_name(node.label, line_length);
     lines.insert(lines.end(), node.notes.begin(), node.notes.end());
-    for (const std::string_view line : lines) {
-      if (value.size() > 1) value += "\\n";
-      append_shown(value, line);
-    }
-    add("label", value + '"');
+    add("label", fmt::format("\"{}\"", join(lines, "\\n", shown)));
   }
   [[nodiscard]] std::string end() const { return text_.empty() ? ";\n" : text_ + "];\n"; }
 
@@ -129,9 +119,7 @@ class DotWriter {
   explicit DotWriter(const draw::Diagram& diagram) : diagram_(diagram) {}
 
   std::string run() && {
-    dot_ = "digraph ";
-    append_dot_id(dot_, draw::id_of("catalog", diagram_.file));
-    dot_ += " {\n";
+    dot_ = fmt::format("digraph {} {{\n", dot_id(draw::id_of("catalog", diagram_.file)));
     // White, not transparent: black lines would be invisible on a dark page.
     dot_ += "  graph [rankdir=LR, bgcolor=\"#FFFFFF\", pad=0.2, ";
     add_distances();
@@ -160,14 +148,8 @@ class DotWriter {
 
   /// Comes last, since clusters would inherit it.
   void add_caption() {
-    dot_ += "  labelloc=t; label=\"";
-    std::string_view separator;
-    for (const std::string& line : draw::caption_of(*diagram_.moment)) {
-      dot_ += separator;
-      append_shown(dot_, line);
-      separator = "\\n";
-    }
-    dot_ += "\";\n";
+    dot_ += fmt::format("  labelloc=t; label=\"{}\";\n",
+                        join(draw::caption_of(*diagram_.moment), "\\n", shown));
   }
 
   /// One node: nodes and edges as samples would be spread over the columns of the picture.
@@ -190,13 +172,10 @@ class DotWriter {
     const auto members = draw::cluster_members(diagram_);
     for (std::size_t place = 0; place < members.size(); ++place) {
       const draw::Cluster& cluster = diagram_.clusters[place];
-      dot_ += "  subgraph ";
-      append_dot_id(dot_, cluster.id);
-      dot_ += " {\n    label=\"";
-      append_shown(dot_, cluster.label);
       dot_ += fmt::format(
-          "\"; labeljust=l; style=\"rounded,filled\"; color=\"{}\"; fillcolor=\"{}\";\n",
-          palette::frame, palette::framed);
+          "  subgraph {} {{\n    label=\"{}\"; labeljust=l; style=\"rounded,filled\"; "
+          "color=\"{}\"; fillcolor=\"{}\";\n",
+          dot_id(cluster.id), shown(cluster.label), palette::frame, palette::framed);
       for (const draw::Node* const node : members[place]) add_node(*node, "    ");
       dot_ += "  }\n";
     }
@@ -209,9 +188,7 @@ class DotWriter {
     } else {
       add_shape(node, attributes);
     }
-    dot_ += indent;
-    append_dot_id(dot_, node.id);
-    dot_ += attributes.end();
+    dot_ += fmt::format("{}{}{}", indent, dot_id(node.id), attributes.end());
   }
 
   /// A dot, or a box if it has a label. (An xlabel beside a dot does not work with pack.)
@@ -256,7 +233,7 @@ class DotWriter {
 
   void add_edge(const Edge& edge) {
     DotAttributes attributes;
-    if (!edge.label.empty()) attributes.add_shown("label", edge.label);
+    if (!edge.label.empty()) attributes.add_label(edge.label);
     const std::optional<palette::Look> look = palette::look_of(edge.mark);
     const bool is_thick = look && look->is_thick;
     std::string_view color = palette::ink;
@@ -281,11 +258,8 @@ class DotWriter {
     if (is_thick && edge.kind != EdgeKind::exclusion) attributes.add("penwidth", "2");
     attributes.add_color("color", color);
     if (!edge.label.empty()) attributes.add_color("fontcolor", color);
-    dot_ += "  ";
-    append_dot_id(dot_, diagram_.nodes[edge.from].id);
-    dot_ += " -> ";
-    append_dot_id(dot_, diagram_.nodes[edge.to].id);
-    dot_ += attributes.end();
+    dot_ += fmt::format("  {} -> {}{}", dot_id(diagram_.nodes[edge.from].id),
+                        dot_id(diagram_.nodes[edge.to].id), attributes.end());
   }
 
   [[nodiscard]] bool is_hub(std::uint32_t node) const {

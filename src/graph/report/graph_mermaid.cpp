@@ -6,10 +6,14 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "core/support/json.h"
+#include "core/support/wording.h"
 #include "graph/engine/diagram.h"
 #include "graph/report/graph_report.h"
 
@@ -33,8 +37,8 @@ bool is_letter_or_digit(char byte) {
 bool is_ascii(char byte) { return static_cast<unsigned char>(byte) < 0x80; }
 
 /// An id of one word: "task_HOVER". ".20" stands for another byte.
-void append_mermaid_id(std::string& text, std::string_view id) {
-  constexpr std::string_view digits = "0123456789abcdef";
+std::string mermaid_id(std::string_view id) {
+  std::string text;
   bool is_in_name = false;
   for (const char byte : id) {
     if (is_letter_or_digit(byte) || byte == '_') {
@@ -43,17 +47,16 @@ void append_mermaid_id(std::string& text, std::string_view id) {
       text += '_';
       is_in_name = true;
     } else {
-      const unsigned value = static_cast<unsigned char>(byte);
-      text += '.';
-      text += digits[value / 16];
-      text += digits[value % 16];
+      text += fmt::format(".{:02x}", static_cast<unsigned char>(byte));
     }
   }
+  return text;
 }
 
 /// A label. Mermaid reads it as Markdown with its own entities ("#35;"), so every character that
 /// may have a meaning there is escaped.
-void append_mermaid_label(std::string& text, std::string_view label) {
+std::string mermaid_label(std::string_view label) {
+  std::string text;
   for (std::size_t i = 0; i < label.size(); ++i) {
     const char byte = label[i];
     const bool is_inside = i > 0 && i + 1 < label.size() && is_letter_or_digit(label[i - 1]) &&
@@ -68,9 +71,10 @@ void append_mermaid_label(std::string& text, std::string_view label) {
     if (stands_for_itself) {
       text += byte;
     } else {
-      text += '#' + std::to_string(static_cast<int>(byte)) + ';';
+      text += fmt::format("#{};", static_cast<int>(byte));
     }
   }
+  return text;
 }
 
 /// What a legend says of shapes, lines and marks: its node is text.
@@ -162,91 +166,43 @@ class MermaidWriter {
     }
     const auto members = draw::cluster_members(diagram_);
     for (std::size_t place = 0; place < members.size(); ++place) {
-      text_ += "  subgraph ";
-      append_mermaid_id(text_, diagram_.clusters[place].id);
-      text_ += "[\"";
-      append_mermaid_label(text_, diagram_.clusters[place].label);
-      text_ += "\"]\n";
+      const draw::Cluster& cluster = diagram_.clusters[place];
+      text_ += fmt::format("  subgraph {}[\"{}\"]\n", mermaid_id(cluster.id),
+                           mermaid_label(cluster.label));
       for (const draw::Node* const node : members[place]) add_node(*node, "    ");
       text_ += "  end\n";
     }
   }
 
   void add_legend() {
-    text_ += "  legend[\"";
-    std::string_view separator;
-    for (const LegendEntry& entry : diagram_.legend) {
-      text_ += separator;
-      append_mermaid_label(text_, std::visit(SampleText(), entry.sample) + ": " + entry.meaning);
-      separator = "<br/>";
-    }
-    text_ += "\"]:::faint\n";
+    const auto line = [](const LegendEntry& entry) {
+      return mermaid_label(std::visit(SampleText(), entry.sample) + ": " + entry.meaning);
+    };
+    text_ += fmt::format("  legend[\"{}\"]:::faint\n", join(diagram_.legend, "<br/>", line));
   }
 
   void add_node(const draw::Node& node, std::string_view indent) {
-    text_ += indent;
-    append_mermaid_id(text_, node.id);
-    switch (node.kind) {
-      case NodeKind::task:
-        add_text("([\"", node, "\"])");
-        break;
-      case NodeKind::behavior:
-        add_text("[\"", node, "\"]");
-        break;
-      case NodeKind::hub:
-        add_text("((\"", node, "\"))");
-        break;
-    }
-    text_ += ":::" + class_of(node) + '\n';
-  }
-
-  void add_text(std::string_view open, const draw::Node& node, std::string_view close) {
-    text_ += open;
-    if (node.label.empty()) {
-      text_ += ' ';
-    } else {
-      append_mermaid_label(text_, node.label);
-    }
-    for (const std::string& note : node.notes) {
-      text_ += "<br/>";
-      append_mermaid_label(text_, note);
-    }
-    text_ += close;
+    constexpr std::pair<std::string_view, std::string_view> brackets[] = {
+        {"([", "])"}, {"[", "]"}, {"((", "))"}};
+    const auto [open, close] = brackets[static_cast<std::size_t>(node.kind)];
+    std::string label = node.label.empty() ? " " : mermaid_label(node.label);
+    for (const std::string& note : node.notes) label += "<br/>" + mermaid_label(note);
+    text_ += fmt::format("{}{}{}\"{}\"{}:::{}\n", indent, mermaid_id(node.id), open, label, close,
+                         class_of(node));
   }
 
   void add_edge(const Edge& edge) {
-    text_ += "  ";
-    append_mermaid_id(text_, diagram_.nodes[edge.from].id);
-    switch (edge.kind) {
-      case EdgeKind::performed_by:
-      case EdgeKind::same_behavior:
-        text_ += " ---";
-        break;
-      case EdgeKind::requirement:
-        text_ += " -.->";
-        break;
-      case EdgeKind::exclusion:
-        text_ += " -.-";
-        break;
-    }
-    if (!edge.label.empty()) {
-      text_ += "|\"";
-      append_mermaid_label(text_, edge.label);
-      text_ += "\"|";
-    }
-    text_ += ' ';
-    append_mermaid_id(text_, diagram_.nodes[edge.to].id);
-    text_ += '\n';
+    constexpr std::string_view lines[] = {"---", "-.->", "-.-", "---"};
+    text_ += fmt::format("  {} {}", mermaid_id(diagram_.nodes[edge.from].id),
+                         lines[static_cast<std::size_t>(edge.kind)]);
+    if (!edge.label.empty()) text_ += fmt::format("|\"{}\"|", mermaid_label(edge.label));
+    text_ += fmt::format(" {}\n", mermaid_id(diagram_.nodes[edge.to].id));
   }
 
   void add_class(std::string_view name, const palette::Look& look) {
-    text_ += "  classDef ";
-    text_ += name;
-    text_ += " fill:" + std::string(look.color.fill) + ",stroke:" + std::string(look.color.line) +
-             ",color:" + std::string(look.text);
-    if (look.is_thick) text_ += ",stroke-width:3px";
-    if (look.is_dashed) text_ += ",stroke-dasharray:6 4";
-    text_ += '\n';
+    text_ += fmt::format("  classDef {} fill:{},stroke:{},color:{}{}{}\n", name, look.color.fill,
+                         look.color.line, look.text, look.is_thick ? ",stroke-width:3px" : "",
+                         look.is_dashed ? ",stroke-dasharray:6 4" : "");
   }
 
   /// Fills, lines and texts have colors, so that the nodes look alike on light and dark pages.
@@ -283,19 +239,12 @@ class MermaidWriter {
 
   /// One for each edge: a second one would replace the first.
   void add_line_styles() {
-    std::map<std::string, std::vector<std::size_t>> by_style;
+    std::map<std::string, std::vector<std::string>> by_style;
     for (std::size_t place = 0; place < diagram_.edges.size(); ++place) {
-      by_style[line_style(diagram_.edges[place])].push_back(place);
+      by_style[line_style(diagram_.edges[place])].push_back(std::to_string(place));
     }
     for (const auto& [style, edges] : by_style) {
-      if (style.empty()) continue;
-      std::string_view separator = "  linkStyle ";
-      for (const std::size_t edge : edges) {
-        text_ += separator;
-        text_ += std::to_string(edge);
-        separator = ",";
-      }
-      text_ += ' ' + style + '\n';
+      if (!style.empty()) text_ += fmt::format("  linkStyle {} {}\n", join(edges, ","), style);
     }
   }
 

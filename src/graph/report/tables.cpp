@@ -62,22 +62,6 @@ std::string_view meaning_of(Together together) {
   return "not decided: there is too much to search";
 }
 
-/// The answer for two tasks, by their places in the table; `row` is greater than `column`.
-class Matrix {
- public:
-  explicit Matrix(const TogetherTable& table) : table_(table) {}
-
-  [[nodiscard]] std::size_t size() const { return table_.tasks.size(); }
-  [[nodiscard]] const TaskPair& at(std::size_t row, std::size_t column) const {
-    // Before the pairs of a column come those of all columns before.
-    const std::size_t before = column * (2 * size() - column - 1) / 2;
-    return table_.pairs[before + row - column - 1];
-  }
-
- private:
-  const TogetherTable& table_;
-};
-
 /// Why a pair does not run together: sentences that lead from one task to the other.
 std::vector<std::string> reasons_of(const CompiledCatalog& catalog, const TaskPair& pair) {
   if (pair.reasons.empty()) return {"the reasons would have taken too long to find"};
@@ -86,17 +70,6 @@ std::vector<std::string> reasons_of(const CompiledCatalog& catalog, const TaskPa
     sentences.push_back(describe_reason(catalog, EventRecord(), reason));
   }
   return sentences;
-}
-
-/// The pairs whose exclusion no list says.
-template <typename Action>
-void for_each_indirect(const TogetherTable& table, const Action& action) {
-  for (const TaskPair& pair : table.pairs) {
-    if (pair.together != Together::possible && pair.together != Together::excluded &&
-        pair.together != Together::undecided) {
-      action(pair);
-    }
-  }
 }
 
 std::string list_names(const CompiledCatalog& catalog, const std::vector<TaskId>& tasks) {
@@ -109,7 +82,7 @@ constexpr std::size_t columns_in_a_block = 5;
 class TextMatrix {
  public:
   TextMatrix(const CompiledCatalog& catalog, const TogetherTable& table, const Style& style)
-      : matrix_(table), style_(style), digits_(std::to_string(table.tasks.size()).size()) {
+      : table_(table), style_(style), digits_(std::to_string(table.tasks.size()).size()) {
     for (const TaskId task : table.tasks) {
       names_.push_back(draw::label_of(catalog.name_of_task(task)));
     }
@@ -120,12 +93,12 @@ class TextMatrix {
   std::string write() && {
     const std::size_t left = 2 + digits_ + 1 + name_width_ + 1;
     const std::size_t width = std::max(text_width, left + columns_in_a_block) - left;
-    const std::size_t columns = matrix_.size() - 1;
+    const std::size_t columns = table_.tasks.size() - 1;
     // A blank stands between each two blocks.
     std::size_t most = (width + 1) / (columns_in_a_block + 1) * columns_in_a_block;
     if (columns + (columns - 1) / columns_in_a_block <= width) most = columns;
-    for (std::size_t first = 0; first + 1 < matrix_.size(); first += most) {
-      add_part(first, std::min(first + most, matrix_.size() - 1));
+    for (std::size_t first = 0; first + 1 < table_.tasks.size(); first += most) {
+      add_part(first, std::min(first + most, table_.tasks.size() - 1));
     }
     return std::move(text_);
   }
@@ -147,13 +120,20 @@ class TextMatrix {
       }
       text_ += table.line(row, style_.faint);
     }
-    for (std::size_t row = first; row < matrix_.size(); ++row) {
+    for (std::size_t row = first; row < table_.tasks.size(); ++row) {
       Table::Row cells = {row + 1, names_[row]};
       for (std::size_t column = first; column < std::min(row, end); ++column) {
-        cells.push_back(cell(matrix_.at(row, column)));
+        cells.push_back(cell(pair_of(row, column)));
       }
       text_ += table.line(cells);
     }
+  }
+
+  /// By the places of both tasks; `row` is greater than `column`.
+  [[nodiscard]] const TaskPair& pair_of(std::size_t row, std::size_t column) const {
+    // Before the pairs of a column come those of all columns before.
+    const std::size_t before = column * (2 * table_.tasks.size() - column - 1) / 2;
+    return table_.pairs[before + row - column - 1];
   }
 
   [[nodiscard]] Table::Cell cell(const TaskPair& pair) const {
@@ -171,7 +151,7 @@ class TextMatrix {
     }
   }
 
-  const Matrix matrix_;
+  const TogetherTable& table_;
   const Style& style_;
   std::vector<std::string> names_;
   std::size_t name_width_ = 0;
@@ -213,10 +193,14 @@ std::string together_text(const CompiledCatalog& catalog, const TogetherTable& t
     text += "  left out, since they can never run: " + list_names(catalog, table.never_run) + "\n";
   }
   if (table.tasks.size() > 1) text += TextMatrix(catalog, table, style).write();
-  for_each_indirect(table, [&](const TaskPair& pair) {
+  for (const TaskPair& pair : table.pairs) {
+    const bool is_told = pair.together == Together::possible ||
+                         pair.together == Together::excluded ||
+                         pair.together == Together::undecided;
+    if (is_told) continue;
     text += "\n" + style.paint(style.strong, list_names(catalog, {pair.first, pair.second})) + "\n";
     for (const std::string& reason : reasons_of(catalog, pair)) text += "  " + reason + "\n";
-  });
+  }
   return text;
 }
 
@@ -318,15 +302,11 @@ std::vector<std::string> describe_gaps(const CompiledCatalog& catalog,
                                        const SituationTable& table) {
   std::vector<std::string> lines;
   for (const VariableValue value : table.values()) {
-    const std::string names = join(table.tasks_without_behavior(value), ", ", [&](TaskId task) {
-      return draw::label_of(catalog.name_of_task(task));
-    });
+    const std::string names = list_names(catalog, table.tasks_without_behavior(value));
     if (!names.empty()) lines.push_back(describe_value(catalog, value) + ": " + names);
   }
   return lines;
 }
-
-constexpr std::string_view gaps_title = "tasks without a behavior that fits";
 
 constexpr std::string_view column_gap = "  ";
 
@@ -453,7 +433,7 @@ std::string situation_text(const CompiledCatalog& catalog, const Style& style) {
   text += TextTable(catalog, table, style).write();
   const std::vector<std::string> gaps = describe_gaps(catalog, table);
   if (gaps.empty()) return text;
-  text += fmt::format("\n{}\n", style.paint(style.strong, gaps_title));
+  text += fmt::format("\n{}\n", style.paint(style.strong, "tasks without a behavior that fits"));
   for (const std::string& line : gaps) text += "  " + line + "\n";
   return text;
 }

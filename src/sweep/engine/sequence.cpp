@@ -84,13 +84,6 @@ void count_outcome(OutcomeCounts& counts, const EventRecord& record) {
   }
 }
 
-void add_outcomes(OutcomeCounts& counts, const OutcomeCounts& other) {
-  counts.accepted += other.accepted;
-  counts.escalated += other.escalated;
-  counts.rejected += other.rejected;
-  counts.unchanged += other.unchanged;
-}
-
 }  // namespace
 
 std::string_view name_of(SweepKind kind) {
@@ -125,9 +118,7 @@ void SweepCounts::add(const CompiledCatalog& catalog, const EventRecord& record)
 }
 
 void SweepCounts::add(const SweepCounts& other) {
-  for (std::size_t kind = 0; kind < sweep_kinds; ++kind) {
-    add_outcomes(events[kind], other.events[kind]);
-  }
+  for (std::size_t kind = 0; kind < sweep_kinds; ++kind) events[kind].add(other.events[kind]);
   for (std::size_t task = 0; task < tasks.size(); ++task) {
     tasks[task].starts += other.tasks[task].starts;
     tasks[task].rejected += other.tasks[task].rejected;

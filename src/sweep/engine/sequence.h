@@ -212,6 +212,13 @@ struct OutcomeCounts {
   std::uint64_t escalated = 0;  ///< of the accepted: at a protection level above the first
   std::uint64_t rejected = 0;
   std::uint64_t unchanged = 0;
+
+  void add(const OutcomeCounts& other) {
+    accepted += other.accepted;
+    escalated += other.escalated;
+    rejected += other.rejected;
+    unchanged += other.unchanged;
+  }
 };
 
 struct TaskCounts {

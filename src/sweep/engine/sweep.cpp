@@ -32,13 +32,16 @@
 namespace cbc {
 namespace {
 
-void keep_slower(std::optional<SlowestEvent>& slowest, std::optional<SlowestEvent> other) {
-  if (!other) return;
-  const bool is_slower =
-      !slowest || other->cost > slowest->cost ||
-      (other->cost == slowest->cost &&
-       std::tie(other->sequence, other->event) < std::tie(slowest->sequence, slowest->event));
-  if (is_slower) slowest = std::move(other);
+/// Whether an event is slower than another one. Among equal costs the earliest event wins, so that
+/// the result does not depend on the order of threads and shards.
+bool is_slower(const auto& one, const auto& other) {
+  return one.cost != other.cost
+             ? one.cost > other.cost
+             : std::tie(one.sequence, one.event) < std::tie(other.sequence, other.event);
+}
+
+void keep_slower(auto& slowest, auto other) {
+  if (other && (!slowest || is_slower(*other, *slowest))) slowest = std::move(other);
 }
 
 }  // namespace
@@ -127,22 +130,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A candidate for the slowest event. Among equal costs the earliest event wins, so that the result
-/// does not depend on the order of the threads.
+/// A candidate for the slowest event.
 struct Candidate {
   std::uint64_t cost = 0;
   std::uint64_t sequence = 0;  ///< from 0
-  std::uint64_t event = 0;     ///< 0: there is none
+  std::uint64_t event = 0;
   Verb verb = Verb::wait;
   std::uint32_t subject = 0;  ///< place in the catalog
-
-  void replace_if_slower(const Candidate& other) {
-    if (other.event == 0) return;
-    const bool is_slower =
-        event == 0 || other.cost > cost ||
-        (other.cost == cost && std::pair(other.sequence, other.event) < std::pair(sequence, event));
-    if (is_slower) *this = other;
-  }
 };
 
 /// Sums, which do not depend on the order of the parts.
@@ -150,15 +144,15 @@ struct Totals {
   SweepCounts counts;
   Histogram nodes;
   Histogram times;  ///< nanoseconds
-  Candidate most_nodes;
-  Candidate most_time;
+  std::optional<Candidate> most_nodes;
+  std::optional<Candidate> most_time;
 
   void add(const Totals& other) {
     counts.add(other.counts);
     nodes.add(other.nodes);
     times.add(other.times);
-    most_nodes.replace_if_slower(other.most_nodes);
-    most_time.replace_if_slower(other.most_time);
+    keep_slower(most_nodes, other.most_nodes);
+    keep_slower(most_time, other.most_time);
   }
 };
 
@@ -196,10 +190,10 @@ class Tally final : public SequenceListener {
                                             : catalog_.behaviors[record.behavior].catalog_index;
     candidate.cost = record.search->result.nodes;
     totals_.nodes.add(candidate.cost);
-    totals_.most_nodes.replace_if_slower(candidate);
+    keep_slower(totals_.most_nodes, std::optional(candidate));
     candidate.cost = static_cast<std::uint64_t>(time.count());
     totals_.times.add(candidate.cost);
-    totals_.most_time.replace_if_slower(candidate);
+    keep_slower(totals_.most_time, std::optional(candidate));
   }
 
   void count_runs(std::uint32_t group, const State& state) {
@@ -270,14 +264,15 @@ std::string describe(const CompiledCatalog& catalog, const Candidate& candidate)
 }
 
 std::optional<SlowestEvent> to_slowest(const CompiledCatalog& catalog,
-                                       const SweepSettings& settings, const Candidate& candidate,
+                                       const SweepSettings& settings,
+                                       const std::optional<Candidate>& candidate,
                                        std::string_view measure) {
-  if (candidate.event == 0) return std::nullopt;
+  if (!candidate) return std::nullopt;
   SlowestEvent slowest;
-  slowest.sequence = candidate.sequence + 1;
-  slowest.event = candidate.event;
-  slowest.cost = candidate.cost;
-  slowest.what = describe(catalog, candidate);
+  slowest.sequence = candidate->sequence + 1;
+  slowest.event = candidate->event;
+  slowest.cost = candidate->cost;
+  slowest.what = describe(catalog, *candidate);
   const std::string comment = fmt::format(
       "Sequence {} of a sweep with seed {}, up to its slowest event by {}:\n"
       "event {}, {}.\n"
@@ -285,7 +280,7 @@ std::optional<SlowestEvent> to_slowest(const CompiledCatalog& catalog,
       slowest.sequence, settings.seed, measure, slowest.event, slowest.what,
       options_for_script(settings.search));
   Script script;
-  script.steps = steps_of_sequence(catalog, settings, candidate.sequence, candidate.event);
+  script.steps = steps_of_sequence(catalog, settings, candidate->sequence, candidate->event);
   slowest.script = write_script(catalog, script, comment);
   return slowest;
 }

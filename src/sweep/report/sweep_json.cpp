@@ -39,33 +39,30 @@ struct Share {
 
 constexpr auto options = object(
     "options", "Other options that the events and the answers depend on.",
-    member(
-        "events", integer(1),
-        "Number of events in each sequence, not counting events of the clock (--events).",
-        [](auto& of) -> auto& { return of.shape.events; }),
-    member(
-        "priorities", integer(1), "Requests have priorities from 1 to this (--priorities).",
-        [](auto& of) -> auto& { return of.shape.priorities; }),
-    member(
-        "failures", Share(), "The share of finished behaviors that have failed (--failures).",
-        [](auto& of) -> auto& { return of.shape.failures; }),
-    member(
-        "faults", Share(),
-        "The share of events that are faults, repairs and changes of the situation (--faults).",
-        [](auto& of) -> auto& { return of.shape.faults; }),
-    member(
-        "max_solutions", count, "--max-solutions; 0: no limit.",
-        [](auto& of) -> auto& { return of.search.max_solutions; }),
-    member(
-        "max_nodes", count, "--max-nodes; 0: no limit.",
-        [](auto& of) -> auto& { return of.search.max_nodes; }),
-    member(
-        "tie_seed", nullable(count), "--tie-seed; null: catalog order.",
-        [](auto& of) -> auto& { return of.search.tie_seed; }),
-    member(
-        "max_clock_events", integer(1),
-        "Limit of clock events in each sequence (--max-clock-events).",
-        [](auto& of) -> auto& { return of.search.max_clock_events; }));
+    part(&SweepSettings::shape,
+         group(member("events", integer(1),
+                      "Number of events in each sequence, not counting events of the clock "
+                      "(--events).",
+                      &SweepShape::events),
+               member("priorities", integer(1),
+                      "Requests have priorities from 1 to this (--priorities).",
+                      &SweepShape::priorities),
+               member("failures", Share(),
+                      "The share of finished behaviors that have failed (--failures).",
+                      &SweepShape::failures),
+               member("faults", Share(),
+                      "The share of events that are faults, repairs and changes of the situation "
+                      "(--faults).",
+                      &SweepShape::faults))),
+    part(&SweepSettings::search,
+         group(member("max_solutions", count, "--max-solutions; 0: no limit.",
+                      &SweepSearch::max_solutions),
+               member("max_nodes", count, "--max-nodes; 0: no limit.", &SweepSearch::max_nodes),
+               member("tie_seed", nullable(count), "--tie-seed; null: catalog order.",
+                      &SweepSearch::tie_seed),
+               member("max_clock_events", integer(1),
+                      "Limit of clock events in each sequence (--max-clock-events).",
+                      &SweepSearch::max_clock_events))));
 
 constexpr auto shard = object("", "", member("index", integer(1), "", &SweepShard::index),
                               member("count", integer(1, most_shards), "", &SweepShard::count));
@@ -205,10 +202,10 @@ constexpr Place<&SweepResult::behavior_names, &Places::behaviors> behavior;
 
 using CountedReason = std::pair<RejectionReason, std::uint64_t>;
 
-constexpr auto task_of_reason = member(
-    "task", task, "", [](auto& of) -> auto& { return of.first.task; });
-constexpr auto behavior_of_reason = member(
-    "behavior", behavior, "", [](auto& of) -> auto& { return of.first.behavior; });
+constexpr auto task_of_reason = member("task", task, "", &RejectionReason::task);
+constexpr auto behavior_of_reason = member("behavior", behavior, "", &RejectionReason::behavior);
+/// Members of the reason, which is counted.
+constexpr auto of_reason = [](auto... members) { return part(first_of, group(members...)); };
 
 /// The two tasks of an exclusion.
 struct BothTasks {
@@ -235,17 +232,16 @@ constexpr auto reason = variants(
     [](auto& of) -> auto& { return of.first.kind; },
     group(member("count", place_from_1, "", second_of)),
     variant({Kind::is_protected, Kind::priority, Kind::no_behavior, Kind::on_request}, "",
-            task_of_reason),
-    variant({Kind::unavailable, Kind::situation, Kind::faulty}, "", behavior_of_reason),
+            of_reason(task_of_reason)),
+    variant({Kind::unavailable, Kind::situation, Kind::faulty}, "", of_reason(behavior_of_reason)),
     variant({Kind::exclusive}, "", member("tasks", BothTasks(), "", first_of)),
-    variant({Kind::requires_task}, "", behavior_of_reason, task_of_reason),
+    variant({Kind::requires_task}, "", of_reason(behavior_of_reason, task_of_reason)),
     variant({Kind::performance}, "",
-            optional(
-                "behavior", behavior,
-                "The behavior that requires it; absent if it is the minimum of the task "
-                "itself.",
-                [](auto& of) -> auto& { return of.first.behavior; }),
-            task_of_reason));
+            of_reason(optional("behavior", behavior,
+                               "The behavior that requires it; absent if it is the minimum of the "
+                               "task itself.",
+                               &RejectionReason::behavior),
+                      task_of_reason)));
 
 constexpr auto reasons = member(
     "reasons", list(reason).on_lines(),
@@ -371,27 +367,23 @@ constexpr auto report = object(
     member("version", version_number, "Version of cbc; another version may draw other events.",
            &SweepResult::version)
         .on_line(),
-    member(
-        "sequences", place_from_1, "Number of sequences in the whole sweep (--sequences).",
-        [](auto& of) -> auto& { return of.settings.sequences; })
-        .on_line(),
-    member(
-        "seed", count, "The seed (--seed).", [](auto& of) -> auto& { return of.settings.seed; })
-        .on_line(),
-    member(
-        "options", options, "", [](auto& of) -> auto& { return of.settings; })
-        .on_line(),
-    member(
-        "shard", shard,
-        "Which shard of the sequences was run (--shard): number `index` of `count`. 1 of 1 is a "
-        "whole sweep.",
-        [](auto& of) -> auto& { return of.settings.shard; })
-        .on_line(),
-    member(
-        "events", Events(),
-        "The number of events with each outcome, for each kind of event, in this order.",
-        [](auto& of) -> auto& { return of.counts.events; })
-        .on_line(),
+    part(&SweepResult::settings,
+         group(member("sequences", place_from_1,
+                      "Number of sequences in the whole sweep (--sequences).",
+                      &SweepSettings::sequences)
+                   .on_line(),
+               member("seed", count, "The seed (--seed).", &SweepSettings::seed).on_line(),
+               member("options", options, "", std::identity()).on_line(),
+               member("shard", shard,
+                      "Which shard of the sequences was run (--shard): number `index` of `count`. "
+                      "1 of 1 is a whole sweep.",
+                      &SweepSettings::shard)
+                   .on_line())),
+    part(&SweepResult::counts,
+         member("events", Events(),
+                "The number of events with each outcome, for each kind of event, in this order.",
+                &SweepCounts::events)
+             .on_line()),
     tasks.on_line(), behaviors.on_line(),
     member("never_ran", names, "The tasks with no `runs`, in catalog order.",
            [](const SweepResult& of) {

@@ -95,10 +95,7 @@ void add_events(const SweepResult& result, Text& text) {
   for (std::size_t kind = 0; kind < sweep_kinds; ++kind) {
     const OutcomeCounts& counts = result.counts.events[kind];
     add(label(static_cast<SweepKind>(kind)), counts);
-    all.accepted += counts.accepted;
-    all.escalated += counts.escalated;
-    all.rejected += counts.rejected;
-    all.unchanged += counts.unchanged;
+    all.add(counts);
   }
   add("all", all);
   text.add(table.text() + "\n");

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include "core/report/explanation_json.h"
 #include "core/report/failure_explanation.h"
@@ -70,23 +69,15 @@ class ReplayListener final : public RunListener {
   std::vector<std::string> explanation_lines_;
 };
 
-Replay run(const CompiledCatalog& catalog, const Script& script, const Property* property,
-           const Style& style) {
+}  // namespace
+
+Replay replay(const CompiledCatalog& catalog, const Script& script, const Property* property,
+              const Style& style) {
   CoordinatorOptions options;
   options.explain.displaced = true;
   ReplayListener listener(catalog, script, property, style);
   RunResult result = run_script(catalog, script, options, listener);
   return std::move(listener).take(std::move(result));
-}
-
-}  // namespace
-
-Replay replay(const CompiledCatalog& catalog, const Answer& answer, const Style& style) {
-  return run(catalog, answer.witness->script, answer.property, style);
-}
-
-Replay replay(const CompiledCatalog& catalog, const Script& script, const Style& style) {
-  return run(catalog, script, nullptr, style);
 }
 
 }  // namespace cbc

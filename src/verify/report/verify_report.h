@@ -31,12 +31,9 @@ struct Replay {
   std::vector<std::string> explanation;
 };
 
-/// Runs the script of an answer, which has one.
-[[nodiscard]] Replay replay(const CompiledCatalog& catalog, const Answer& answer,
-                            const Style& style);
-/// Runs a script that is a witness of no property.
+/// Runs a script. `property`: of which it is the counterexample or witness, or null.
 [[nodiscard]] Replay replay(const CompiledCatalog& catalog, const Script& script,
-                            const Style& style);
+                            const Property* property, const Style& style);
 
 /// What was found out about a property, and its script.
 struct ReportedAnswer {
@@ -92,9 +89,6 @@ struct VerifyResult {
 
 /// The name of a property, or if it has none, what it says.
 [[nodiscard]] std::string title_of(const CompiledCatalog& catalog, const Property& property);
-
-/// How a property is violated: "violated after 4 events".
-[[nodiscard]] std::string describe_violation(const Answer& answer, const Exploration& exploration);
 
 /// What ended an exploration that is not complete, how far it came, and how to go on.
 [[nodiscard]] std::string describe_limit(const VerifyResult& result,

@@ -63,8 +63,7 @@ std::string memory_with_unit(std::uint64_t bytes) {
   return std::to_string(bytes) + std::string(unit > 0 ? units.substr(unit, 1) : "");
 }
 
-}  // namespace
-
+/// How a property is violated: "violated after 4 events".
 std::string describe_violation(const Answer& answer, const Exploration& exploration) {
   if (!answer.witness) {
     return fmt::format("violated: there is none among {}", quantity(exploration.states, "state"));
@@ -73,8 +72,6 @@ std::string describe_violation(const Answer& answer, const Exploration& explorat
   return events == 0 ? "violated in the first state"
                      : "violated after " + quantity(events, "event");
 }
-
-namespace {
 
 std::string describe_exploration_end(ExplorationEnd end, const ExplorationLimits& limits) {
   switch (end) {

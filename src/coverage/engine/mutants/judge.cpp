@@ -9,7 +9,7 @@
 // Timeouts are not part of states. For these, states in which the timeout would run are visited,
 // and a script waits there; if nothing shows, and nothing is proven, the mutant is undecided.
 
-#include "coverage/engine/mutants/judge.h"
+#include "coverage/engine/mutants/mutants.h"
 
 #include <algorithm>
 #include <array>
@@ -18,8 +18,6 @@
 #include <string_view>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/compile/compile.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/script/reader.h"
@@ -27,6 +25,7 @@
 #include "core/script/script.h"
 #include "core/yaml/document.h"
 #include "coverage/engine/goal_proof.h"
+#include "coverage/engine/mutants/mutants.h"
 #include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
@@ -43,7 +42,12 @@ Microseconds timeout_of(const Catalog& catalog, const Behavior& behavior, TaskIn
   return behavior.timeout.value_or(task.timeout.value_or(0));
 }
 
-using TimeDifference = MutantJudge::TimeDifference;
+/// A behavior that times out with one of its tasks in only one of two catalogs, or earlier.
+struct TimeDifference {
+  TaskIndex task = 0;
+  BehaviorIndex behavior = 0;
+  Microseconds first = 0;  ///< the shorter timeout
+};
 
 /// Both catalogs have the same tasks and behaviors.
 std::vector<TimeDifference> find_time_differences(const Catalog& original, const Catalog& mutant) {
@@ -173,6 +177,32 @@ std::optional<std::string> find_distinguishing_script(const CompiledCatalog& ori
   return std::nullopt;
 }
 
+/// Whether other timeouts always come before these: then they never end anything.
+bool never_time_out(const CompiledCatalog& catalog, const std::vector<TimeDifference>& differences,
+                    const Assumptions& assumptions, const ExplorationOptions& limited) {
+  const std::uint32_t group = catalog.tasks[catalog.task_ids[differences.front().task]].group;
+  GoalProofOptions options;
+  options.group = group;
+  options.search.max_states = limited.limits.max_states;
+  if (limited.limits.max_memory > 0) {
+    options.search.max_memory = std::min(options.search.max_memory, limited.limits.max_memory);
+  }
+  options.search.on_progress = [&](std::uint32_t, std::uint64_t) {
+    return limited.on_progress({}, {});
+  };
+  const GoalProof proof = prove_unreachable(catalog, {}, assumptions, options);
+  if (proof.error || !proof.groups[group].is_complete) return false;
+  return std::all_of(differences.begin(), differences.end(), [&](const TimeDifference& difference) {
+    const TaskId task = catalog.task_ids[difference.task];
+    const BehaviorId behavior = catalog.behavior_ids[difference.behavior];
+    const auto values = catalog.performs[behavior];
+    const ValueId value = *std::find_if(values.begin(), values.end(),
+                                        [&](ValueId one) { return catalog.task_of(one) == task; });
+    return timeout_of(catalog, task, behavior) == 0 || proof.facts.performed[value] == 0 ||
+           proof.facts.forestalled_by[value] != none;
+  });
+}
+
 }  // namespace
 
 std::string_view name_of(Notice::How how) {
@@ -251,6 +281,15 @@ MutantVerdict MutantJudge::judge(const Mutant& mutant) const {
   return verdict;
 }
 
+ExplorationOptions MutantJudge::exploration_options() const {
+  ExplorationOptions options;
+  options.limits = options_.limits;
+  options.reduce = true;
+  options.on_progress = [this](const std::vector<std::uint32_t>& /*groups*/,
+                               const ExplorationProgress& /*progress*/) { return !is_stopped(); };
+  return options;
+}
+
 std::uint32_t MutantJudge::group_of(const Mutant& mutant) const {
   return mutant.task != Mutant::none ? catalog_.tasks[catalog_.task_ids[mutant.task]].group
                                      : catalog_.group_of(catalog_.behavior_ids[mutant.behavior]);
@@ -259,13 +298,8 @@ std::uint32_t MutantJudge::group_of(const Mutant& mutant) const {
 /// The original is the new catalog of the comparison, so that the script tells what it does.
 void MutantJudge::compare(const Mutant& mutant, const CompiledCatalog& changed,
                           MutantVerdict& verdict) const {
-  ExplorationOptions options;
-  options.limits = options_.limits;
-  options.reduce = true;
-  options.on_progress = [this](const std::vector<std::uint32_t>& /*groups*/,
-                               const ExplorationProgress& /*progress*/) { return !is_stopped(); };
   const CatalogComparison found =
-      compare_catalogs(changed, catalog_, assumptions_, options,
+      compare_catalogs(changed, catalog_, assumptions_, exploration_options(),
                        {ComparisonScope::Differences::expectable, group_of(mutant)});
   if (found.result != Verdict::Result::violated) {
     verdict.result = found.result == Verdict::Result::proved ? MutantVerdict::Result::equivalent
@@ -307,12 +341,7 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
   if (differences.empty() || !assumptions_.failures) return;
   bool is_any_reachable = false;
   const std::vector<std::uint32_t> groups = {group_of(mutant)};
-  ExplorationOptions options;
-  options.limits = options_.limits;
-  options.reduce = true;
-  options.on_progress = [this](const std::vector<std::uint32_t>& /*groups*/,
-                               const ExplorationProgress& /*progress*/) { return !is_stopped(); };
-  const Exploration found = explore(catalog_, groups, assumptions_, asked, options);
+  const Exploration found = explore(catalog_, groups, assumptions_, asked, exploration_options());
   for (std::size_t place = 0; place < properties.size(); ++place) {
     if (!found.verdicts[place].has_script) continue;
     is_any_reachable = true;
@@ -326,37 +355,15 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
     verdict.result = MutantVerdict::Result::survived;
     return;
   }
+  const auto always_first = [&](const CompiledCatalog& catalog) {
+    return never_time_out(catalog, differences, assumptions_, exploration_options());
+  };
   if (!found.complete) {
     verdict.result = MutantVerdict::Result::undecided;
-  } else if (is_any_reachable &&
-             !(never_time_out(catalog_, differences) && never_time_out(changed, differences))) {
+  } else if (is_any_reachable && !(always_first(catalog_) && always_first(changed))) {
     verdict.result = MutantVerdict::Result::undecided;
     verdict.doubt = MutantVerdict::Doubt::no_script;
   }
-}
-
-/// Whether other timeouts always come before these: then they never end anything.
-bool MutantJudge::never_time_out(const CompiledCatalog& catalog,
-                                 const std::vector<TimeDifference>& differences) const {
-  const std::uint32_t group = catalog.tasks[catalog.task_ids[differences.front().task]].group;
-  GoalProofOptions options;
-  options.group = group;
-  options.search.max_states = options_.limits.max_states;
-  if (options_.limits.max_memory > 0) {
-    options.search.max_memory = std::min(options.search.max_memory, options_.limits.max_memory);
-  }
-  options.search.on_progress = [this](std::uint32_t, std::uint64_t) { return !is_stopped(); };
-  const GoalProof proof = prove_unreachable(catalog, {}, assumptions_, options);
-  if (proof.error || !proof.groups[group].is_complete) return false;
-  return std::all_of(differences.begin(), differences.end(), [&](const TimeDifference& difference) {
-    const TaskId task = catalog.task_ids[difference.task];
-    const BehaviorId behavior = catalog.behavior_ids[difference.behavior];
-    const auto values = catalog.performs[behavior];
-    const ValueId value = *std::find_if(values.begin(), values.end(),
-                                        [&](ValueId one) { return catalog.task_of(one) == task; });
-    return timeout_of(catalog, task, behavior) == 0 || proof.facts.performed[value] == 0 ||
-           proof.facts.forestalled_by[value] != none;
-  });
 }
 
 }  // namespace cbc
