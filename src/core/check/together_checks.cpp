@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/check/proofs.h"
-#include "core/check/together_search.h"
+#include "core/check/together.h"
 #include "core/diagnostic/rules.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstdint>
 #include <functional>
@@ -108,7 +109,10 @@ struct PlainValue {
   void write(JsonWriter& json, bool available, const auto& /*context*/) const {
     json.put(available);
   }
-  void put_schema(JsonWriter& json, Definitions& definitions) const;
+  void put_schema(JsonWriter& json, Definitions& /*definitions*/) const {
+    json.write_list("type", std::array<std::string_view, 2>{"string", "boolean"});
+    json.write("minLength", 1);
+  }
 };
 inline constexpr PlainValue plain_value;
 
@@ -118,12 +122,19 @@ inline constexpr auto situation = map(text, plain_value);
 /// The values of a condition.
 struct ConditionValues {
   void write(JsonWriter& json, const NamedCondition& condition, const auto& /*context*/) const {
-    put(json, condition);
+    json.begin('[');
+    for (const std::string_view value : condition.values) {
+      if (condition.is_boolean) {
+        json.write(value == "true");
+      } else {
+        json.write(value);
+      }
+    }
+    json.close(']');
   }
-  void put_schema(JsonWriter& json, Definitions& definitions) const;
-
- private:
-  static void put(JsonWriter& json, const NamedCondition& condition);
+  void put_schema(JsonWriter& json, Definitions& definitions) const {
+    list(plain_value).at_least(1).put_schema(json, definitions);
+  }
 };
 
 /// The values in which a behavior fits, by the variables that it names.

@@ -13,7 +13,6 @@
 #include "core/check/check.h"
 #include "core/check/controls.h"
 #include "core/diagnostic/diagnostic.h"
-#include "core/files/findings.h"
 #include "core/files/read.h"
 #include "core/property/properties.h"
 #include "core/script/script.h"
@@ -82,6 +81,28 @@ struct NamedCatalog {
 
 /// Prints that a file is the log of a stream, and what reads it.
 void complain_of_log(const InputFile& file);
+
+/// The texts of files, by their names in messages.
+using Texts = std::map<std::string, std::shared_ptr<const std::string>>;
+
+/// Prints findings to standard error: all errors, and the first few warnings of each rule in each
+/// file, but no notes. Older names of keys, of which a file usually has many, are only counted.
+/// `texts` has the files they are about.
+void print_findings(const std::vector<Diagnostic>& findings, const Texts& texts);
+
+/// Finds the settings that apply to a file: those of its `.cbc.yaml`, overridden by those of the
+/// command line.
+class SettingsFinder {
+ public:
+  explicit SettingsFinder(SeveritySettings command_line = {});
+
+  /// Empty if the settings file cannot be used; the reason is printed to standard error, once.
+  [[nodiscard]] std::optional<SeveritySettings> find(const std::string& path);
+
+ private:
+  const SeveritySettings command_line_;
+  std::map<std::string, std::optional<SeveritySettings>> known_;  ///< by settings file
+};
 
 /// The files of a command line, and those that they name. Reads them, finds their settings, checks
 /// them, and collects the findings. What cannot be read is printed to standard error.

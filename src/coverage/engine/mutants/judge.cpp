@@ -25,7 +25,6 @@
 #include "core/script/script.h"
 #include "core/yaml/document.h"
 #include "coverage/engine/goal_proof.h"
-#include "coverage/engine/mutants/mutants.h"
 #include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
