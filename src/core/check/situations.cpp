@@ -63,7 +63,7 @@ class ConflictInSituations {
         nothing_present_(most_in_a_group(catalog.group_tasks), none),
         effort_left_(effort_left) {
     for (const Demand& demand : demands) {
-      const std::uint32_t group = catalog.tasks[demand.task].group;
+      const GroupId group = catalog.tasks[demand.task].group;
       auto part = std::find_if(parts_.begin(), parts_.end(),
                                [group](const Part& one) { return one.group == group; });
       if (part == parts_.end()) part = parts_.insert(part, {group, {}, nullptr});
@@ -93,7 +93,7 @@ class ConflictInSituations {
  private:
   /// The demands on one group of the catalog.
   struct Part {
-    std::uint32_t group = 0;
+    GroupId group;
     Demands demands;
     std::unique_ptr<ConflictSearch> problem;
   };
@@ -141,8 +141,8 @@ class ConflictInSituations {
     std::vector<std::size_t> places;
     for (std::size_t place = 0; place < reasons.size(); ++place) {
       const Reason& reason = reasons[place];
-      const std::uint32_t group = reason.behavior != none ? catalog_.group_of(reason.behavior)
-                                                          : catalog_.tasks[reason.task].group;
+      const GroupId group = reason.behavior != none ? catalog_.group_of(reason.behavior)
+                                                    : catalog_.tasks[reason.task].group;
       if (group != part.group) continue;
       if (reason.kind == Reason::Kind::situation &&
           is_met(catalog_, reason, values[reason.variable])) {

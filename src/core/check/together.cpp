@@ -110,7 +110,7 @@ Feasibility TogetherSearch::can_run(TaskId task) {
 }
 
 Feasibility TogetherSearch::decide_by_constraints(TaskId a, TaskId b) {
-  const std::uint32_t group = catalog_.tasks[a].group;
+  const GroupId group = catalog_.tasks[a].group;
   if (group != catalog_.tasks[b].group) {
     const bool is_certain = liveness_.of_task(a) == Liveness::State::live &&
                             liveness_.of_task(b) == Liveness::State::live;
@@ -172,7 +172,7 @@ Feasibility TogetherSearch::find(TaskId a, TaskId b, std::span<const std::uint32
 /// All tasks of a solution run together, not only those that were asked for.
 void TogetherSearch::note_running(TaskId first_of_group) {
   std::vector<TaskId> running;
-  for (std::uint32_t task = 0; task < solution_.size(); ++task) {
+  for (LocalTask task(0); task < solution_.size(); ++task) {
     if (solution_[task] != none) running.push_back(first_of_group + task);
   }
   for (std::size_t a = 0; a < running.size(); ++a) {
@@ -198,7 +198,7 @@ Feasibility TogetherSearch::solve(ConflictSearch& problem, std::span<const Reaso
 }
 
 std::vector<Reason> TogetherSearch::find_reasons(TaskId a, TaskId b) {
-  const std::uint32_t group = catalog_.tasks[a].group;
+  const GroupId group = catalog_.tasks[a].group;
   if (group != catalog_.tasks[b].group) return {};
   RelevantTasks relevant(catalog_, group);
   relevant.add(a);

@@ -29,7 +29,7 @@ class GraphBuilder {
   }
 
   GoalGraph build() {
-    for (std::uint32_t group = 0; group < catalog_.group_count(); ++group) {
+    for (GroupId group(0); group < catalog_.group_count(); ++group) {
       // To begin the searches of very many groups takes long, too.
       if (options_.on_progress && !options_.on_progress(group, 0)) break;
       first_state_ = static_cast<std::uint32_t>(graph_.state_count());

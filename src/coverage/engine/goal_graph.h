@@ -27,7 +27,7 @@ struct GoalGraph {
   /// The states of a group are numbered from its first state on, by the least number of moves to
   /// them.
   struct Part {
-    std::uint32_t group = 0;
+    GroupId group;
     std::uint32_t first_state = 0;
     bool is_complete = false;  ///< false: a limit came first
   };

@@ -19,7 +19,7 @@ struct GoalSearchOptions {
   std::uint64_t max_memory = std::uint64_t{4} << 30U;  ///< bytes that its states may take
   /// Called for each state, and now and then within one that has many moves; false ends the search
   /// as a limit does. May be empty.
-  std::function<bool(std::uint32_t group, std::uint64_t states)> on_progress;
+  std::function<bool(GroupId group, std::uint64_t states)> on_progress;
 };
 
 /// What a search visited.
@@ -45,7 +45,7 @@ struct SeenMove {
 /// goals. `on_move` sees the moves of the states, one state after the other. `unwanted`: null, or
 /// what GoalMonitor::restart() gets before each move. A complete search also tells the monitor
 /// which timeouts always come before others.
-[[nodiscard]] GoalSearchResult search_goals(const CompiledCatalog& catalog, std::uint32_t group,
+[[nodiscard]] GoalSearchResult search_goals(const CompiledCatalog& catalog, GroupId group,
                                             const Assumptions& assumptions, GoalMonitor& monitor,
                                             const std::vector<std::uint8_t>* unwanted,
                                             const GoalSearchOptions& options,

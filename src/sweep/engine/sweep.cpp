@@ -191,7 +191,7 @@ class Tally final : public SequenceListener {
     totals_.most_time.replace_if_slower(candidate);
   }
 
-  void count_runs(std::uint32_t group, const State& state) {
+  void count_runs(GroupId group, const State& state) {
     for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1];
          ++task) {
       const bool is_running = state.is_running(task);

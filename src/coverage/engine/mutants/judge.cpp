@@ -240,7 +240,7 @@ MutantVerdict MutantJudge::judge(const Mutant& mutant) const {
   return verdict;
 }
 
-std::uint32_t MutantJudge::group_of(const Mutant& mutant) const {
+GroupId MutantJudge::group_of(const Mutant& mutant) const {
   return mutant.task != Mutant::none ? catalog_.tasks[catalog_.task_ids[mutant.task]].group
                                      : catalog_.group_of(catalog_.behavior_ids[mutant.behavior]);
 }
@@ -251,7 +251,7 @@ void MutantJudge::compare(const Mutant& mutant, const CompiledCatalog& changed,
   ExplorationOptions options;
   options.limits = options_.limits;
   options.reduce = true;
-  options.on_progress = [this](const std::vector<std::uint32_t>& /*groups*/,
+  options.on_progress = [this](const std::vector<GroupId>& /*groups*/,
                                const ExplorationProgress& /*progress*/) { return !is_stopped(); };
   const CatalogComparison found =
       compare_catalogs(changed, catalog_, assumptions_, options,
@@ -295,11 +295,11 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
   // Nothing fails, and so nothing times out.
   if (differences.empty() || !assumptions_.failures) return;
   bool is_any_reachable = false;
-  const std::vector<std::uint32_t> groups = {group_of(mutant)};
+  const std::vector<GroupId> groups = {group_of(mutant)};
   ExplorationOptions options;
   options.limits = options_.limits;
   options.reduce = true;
-  options.on_progress = [this](const std::vector<std::uint32_t>& /*groups*/,
+  options.on_progress = [this](const std::vector<GroupId>& /*groups*/,
                                const ExplorationProgress& /*progress*/) { return !is_stopped(); };
   const Exploration found = explore(catalog_, groups, assumptions_, asked, options);
   for (std::size_t place = 0; place < properties.size(); ++place) {
@@ -327,14 +327,14 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
 /// Whether other timeouts always come before these: then they never end anything.
 bool MutantJudge::never_time_out(const CompiledCatalog& catalog,
                                  const std::vector<TimeDifference>& differences) const {
-  const std::uint32_t group = catalog.tasks[catalog.task_ids[differences.front().task]].group;
+  const GroupId group = catalog.tasks[catalog.task_ids[differences.front().task]].group;
   GoalProofOptions options;
   options.group = group;
   options.search.max_states = options_.limits.max_states;
   if (options_.limits.max_memory > 0) {
     options.search.max_memory = std::min(options.search.max_memory, options_.limits.max_memory);
   }
-  options.search.on_progress = [this](std::uint32_t, std::uint64_t) { return !is_stopped(); };
+  options.search.on_progress = [this](GroupId, std::uint64_t) { return !is_stopped(); };
   const GoalProof proof = prove_unreachable(catalog, {}, assumptions_, options);
   if (proof.error || !proof.groups[group].is_complete) return false;
   return std::all_of(differences.begin(), differences.end(), [&](const TimeDifference& difference) {
