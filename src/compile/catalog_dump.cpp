@@ -30,7 +30,7 @@ struct PutTime {
 constexpr auto timeout_of = [](std::string_view meaning) {
   return [meaning](auto projection) {
     return member("timeout", nullable(Number<PutTime>{std::nullopt, true, {}}), meaning,
-                  [projection](std::uint32_t of, const CompiledCatalog& catalog) {
+                  [projection](auto of, const CompiledCatalog& catalog) {
                     const Microseconds& timeout = projection(of, catalog).timeout;
                     return timeout > 0 ? &timeout : nullptr;
                   });

@@ -158,7 +158,7 @@ bool prove(CatalogCoverage& coverage, const StatedAssumptions& stated,
   GroupProgress progress("proving", catalog.group_count());
   GoalProofOptions of_proof;
   of_proof.search = search_options(options.limits);
-  of_proof.search.on_progress = [&](std::uint32_t group, std::uint64_t states) {
+  of_proof.search.on_progress = [&](GroupId group, std::uint64_t states) {
     progress.show(group, states);
     return !deadline.has_come();
   };
@@ -168,7 +168,7 @@ bool prove(CatalogCoverage& coverage, const StatedAssumptions& stated,
     complain("--prove: {}", *proof.error);
     return false;
   }
-  for (std::size_t group = 0; group < proof.groups.size(); ++group) {
+  for (GroupId group(0); group < proof.groups.size(); ++group) {
     if (proof.groups[group].is_complete) continue;
     complain("--prove: not all states of group {} of {} were visited; nothing is proven about it",
              group, quote(catalog.file));

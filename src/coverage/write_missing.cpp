@@ -187,7 +187,7 @@ MissingMissions find_missing(const CoverageOptions& options, const CoverageQuest
   MissingMissionOptions of_search;
   of_search.catalog = catalog_from(*options.write_missing, options);
   of_search.exploration = search_options(options.limits);
-  of_search.exploration.on_progress = [&](std::uint32_t group, std::uint64_t states) {
+  of_search.exploration.on_progress = [&](GroupId group, std::uint64_t states) {
     progress.show(group, states);
     return true;
   };

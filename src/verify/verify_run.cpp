@@ -308,10 +308,10 @@ class Call {
     of_verification.limits = result_.limits;
     of_verification.jobs = thread_count(options_.jobs);
     of_verification.reduce = options_.reduce;
-    std::vector<std::uint32_t> explored;
+    std::vector<GroupId> explored;
     std::uint64_t states = 0;
     Clock::time_point begin;
-    of_verification.on_progress = [&](const std::vector<std::uint32_t>& groups,
+    of_verification.on_progress = [&](const std::vector<GroupId>& groups,
                                       const ExplorationProgress& so_far) {
       const auto now = Clock::now();
       if (explored != groups || so_far.states < states) {
@@ -342,7 +342,7 @@ class Call {
     of_comparison.limits = result_.limits;
     of_comparison.jobs = thread_count(options_.jobs);
     const auto begin = Clock::now();
-    of_comparison.on_progress = [&](const std::vector<std::uint32_t>& /*groups*/,
+    of_comparison.on_progress = [&](const std::vector<GroupId>& /*groups*/,
                                     const ExplorationProgress& so_far) {
       progress.show(describe_progress(so_far, Clock::now() - begin));
       return !signals_.have_come();
@@ -376,9 +376,9 @@ class Call {
     return write_output(*reported.script_path, witness.text);
   }
 
-  static std::string name_groups(const std::vector<std::uint32_t>& groups) {
+  static std::string name_groups(const std::vector<GroupId>& groups) {
     std::string text = groups.size() == 1 ? "group" : "groups";
-    for (const std::uint32_t group : groups) text += fmt::format(" {}", group);
+    for (const GroupId group : groups) text += fmt::format(" {}", std::uint32_t{group});
     return text;
   }
 

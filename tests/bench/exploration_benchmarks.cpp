@@ -14,7 +14,7 @@ namespace {
 
 /// One group, with up to so many faulty behaviors at a time.
 void register_exploration(const std::string& name, std::shared_ptr<const CompiledCatalog> catalog,
-                          std::uint32_t group, std::uint32_t faults, unsigned jobs) {
+                          GroupId group, std::uint32_t faults, unsigned jobs) {
   const auto run = [=, catalog = std::move(catalog)](benchmark::State& state) {
     Assumptions assumptions = default_assumptions(*catalog);
     assumptions.faults = faults;

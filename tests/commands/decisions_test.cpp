@@ -75,8 +75,8 @@ struct RandomQuestion {
 /// Asks questions again and again, with their requests in several orders. `most_bytes`: of the
 /// answers that are remembered.
 void expect_fresh_answers(const CompiledCatalog& catalog, std::size_t most_bytes) {
-  std::vector<std::uint32_t> groups;
-  for (std::uint32_t group = 0; group < catalog.group_count(); ++group) groups.push_back(group);
+  std::vector<GroupId> groups;
+  for (GroupId group(0); group < catalog.group_count(); ++group) groups.push_back(group);
   const Assumptions assumptions = default_assumptions(catalog);
   const Model model(catalog, groups, assumptions);
   Decisions remembering(model, most_bytes);
@@ -139,7 +139,7 @@ TEST(Decisions, AnswersAreRightAfterOthersWereForgotten) { expect_fresh_answers(
 TEST(Decisions, ForgetsWhenThereAreTooMany) {
   const CompiledCatalog catalog = rivals();
   const Assumptions assumptions = default_assumptions(catalog);
-  const Model model(catalog, {0}, assumptions);
+  const Model model(catalog, {GroupId(0)}, assumptions);
   const auto computed_with = [&](std::size_t most_bytes) {
     Decisions decisions(model, most_bytes);
     Random random(2);

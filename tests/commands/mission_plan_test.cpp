@@ -28,7 +28,7 @@ GoalGraph random_graph(std::mt19937& random) {
   graph.goal_count = goal_count;
   graph.is_return.assign(goal_count, 0);
   graph.is_return[returning] = 1;
-  for (std::uint32_t group = 0; group < 2; ++group) {
+  for (GroupId group(0); group < 2; ++group) {
     const auto first = static_cast<std::uint32_t>(graph.state_count());
     const std::uint32_t states = 1 + below(4);
     graph.parts.push_back({group, first, true});
@@ -136,7 +136,7 @@ TEST(MissionPlan, AllowsTheEventsOfTheFurthestGoal) {
   GoalGraph graph;
   graph.goal_count = 1;
   graph.is_return = {0};
-  graph.parts = {{0, 0, true}};
+  graph.parts = {{GroupId(0), 0, true}};
   graph.edges = {{1, 0, 0, {}}, {2, 0, 0, {}}, {2, 0, 1, {}}};
   graph.begin = {0, 1, 2, 3};
   graph.items = {0};

@@ -26,9 +26,9 @@ namespace {
 using test::compile_text;
 using test::Random;
 
-std::vector<std::uint32_t> all_groups(const CompiledCatalog& catalog) {
-  std::vector<std::uint32_t> groups;
-  for (std::uint32_t group = 0; group < catalog.group_count(); ++group) groups.push_back(group);
+std::vector<GroupId> all_groups(const CompiledCatalog& catalog) {
+  std::vector<GroupId> groups;
+  for (GroupId group(0); group < catalog.group_count(); ++group) groups.push_back(group);
   return groups;
 }
 
@@ -50,8 +50,8 @@ TEST(Model, RefusesMoreBehaviorsThanACellHolds) {
     assumptions.initially.variables.push_back({0, 1});
     Property never_runs;
     never_runs.kind = Property::Kind::never;
-    never_runs.condition.running.push_back({0, none});
-    const Exploration exploration = explore(catalog, {0}, assumptions, {&never_runs}, {});
+    never_runs.condition.running.push_back({TaskId(0), none});
+    const Exploration exploration = explore(catalog, {GroupId(0)}, assumptions, {&never_runs}, {});
     if (count < Model::most_in_cell) {
       EXPECT_FALSE(exploration.error);
       EXPECT_EQ(exploration.verdicts[0].result, Verdict::Result::violated) << count;
@@ -71,9 +71,9 @@ TEST(Model, RefusesMorePrioritiesThanACellHolds) {
   for (std::int32_t priority = 2; priorities.size() < Model::most_in_cell - 1; ++priority) {
     priorities.push_back(priority);
   }
-  EXPECT_FALSE(Model(catalog, {0}, assumptions).find_obstacle());
+  EXPECT_FALSE(Model(catalog, {GroupId(0)}, assumptions).find_obstacle());
   priorities.push_back(1'000'000);  // and that of reactive starts
-  EXPECT_TRUE(Model(catalog, {0}, assumptions).find_obstacle());
+  EXPECT_TRUE(Model(catalog, {GroupId(0)}, assumptions).find_obstacle());
 }
 
 TEST(Model, RefusesMoreValuesThanACellHolds) {
@@ -84,7 +84,7 @@ TEST(Model, RefusesMoreValuesThanACellHolds) {
   const CompiledCatalog catalog =
       compile_text("situation: [{variable: V, values: [" + values +
                    "]}]\nbehaviors: [{behavior: B, task: T, situation: {V: a}}]\n");
-  EXPECT_TRUE(Model(catalog, {0}, default_assumptions(catalog)).find_obstacle());
+  EXPECT_TRUE(Model(catalog, {GroupId(0)}, default_assumptions(catalog)).find_obstacle());
 }
 
 /// For each value there is a set of the behaviors that do not fit.
@@ -96,13 +96,13 @@ TEST(Model, RefusesTooManyBehaviorsTimesValues) {
     text += "- {behavior: B" + std::to_string(behavior) + ", task: T, situation: {V: v0}}\n";
   }
   const CompiledCatalog catalog = compile_text(text);
-  EXPECT_TRUE(Model(catalog, {0}, default_assumptions(catalog)).find_obstacle());
+  EXPECT_TRUE(Model(catalog, {GroupId(0)}, default_assumptions(catalog)).find_obstacle());
 }
 
 TEST(Model, RefusesMoreTasksThanACellHolds) {
   const CompiledCatalog catalog = compile_text(test::exclusive_tasks(Model::most_in_cell + 1));
   ASSERT_EQ(catalog.group_count(), 1U);
-  EXPECT_TRUE(Model(catalog, {0}, default_assumptions(catalog)).find_obstacle());
+  EXPECT_TRUE(Model(catalog, {GroupId(0)}, default_assumptions(catalog)).find_obstacle());
 }
 
 /// What is found in the first move stays true when a limit comes right after it.

@@ -36,12 +36,12 @@ class Witness final : public RunListener {
   void on_event(const EventRecord& record, const Step* /*step*/, const State& state) override {
     Moment& moment = moments.emplace_back();
     moment.time = record.time;
-    for (TaskId task = 0; task < catalog_.tasks.size(); ++task) {
+    for (TaskId task(0); task < catalog_.tasks.size(); ++task) {
       moment.assignment.push_back(state.value_index(task));
       moment.priorities.emplace_back();
       if (state.has_request(task)) moment.priorities.back() = state.request(task).priority;
     }
-    for (BehaviorId behavior = 0; behavior < catalog_.behaviors.size(); ++behavior) {
+    for (BehaviorId behavior(0); behavior < catalog_.behaviors.size(); ++behavior) {
       moment.active.push_back(state.is_active(behavior));
     }
     moment.changes = record.changes;
@@ -63,7 +63,7 @@ Mark expected_mark(bool was, bool is) {
 
 void check(const CompiledCatalog& catalog, const CatalogGraph& graph, const Witness::Moment& before,
            const Witness::Moment& after) {
-  for (TaskId task = 0; task < catalog.tasks.size(); ++task) {
+  for (TaskId task(0); task < catalog.tasks.size(); ++task) {
     const CatalogGraph::Task& drawn = graph.tasks[catalog.tasks[task].catalog_index];
     ASSERT_EQ(drawn.mark,
               expected_mark(before.assignment[task] != none, after.assignment[task] != none));
@@ -80,7 +80,7 @@ void check(const CompiledCatalog& catalog, const CatalogGraph& graph, const Witn
       is_new[change.behavior] = true;
     }
   }
-  for (BehaviorId behavior = 0; behavior < catalog.behaviors.size(); ++behavior) {
+  for (BehaviorId behavior(0); behavior < catalog.behaviors.size(); ++behavior) {
     const CatalogGraph::Behavior& drawn =
         graph.behaviors[catalog.behaviors[behavior].catalog_index];
     const bool is_active = after.active[behavior];

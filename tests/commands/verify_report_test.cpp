@@ -104,7 +104,7 @@ std::string pairs_of_group(std::size_t tasks) {
   result.catalog =
       std::make_shared<const CompiledCatalog>(test::compile_text(test::exclusive_tasks(tasks)));
   Exploration exploration;
-  exploration.groups = {0};
+  exploration.groups = {GroupId(0)};
   exploration.complete = true;
   for (std::uint32_t task = 0; task < tasks; ++task) exploration.runs.emplace_back(task, 1);
   exploration.together = {{0, 1, 2}};

@@ -150,7 +150,7 @@ void compare(const VerifyCase& sample, oracle::Statistics& statistics) {
   const Assumptions& assumptions = sample.question.assumptions;
   const std::vector<Goal> goals = find_goals(catalog);
   GoalMonitor watch(catalog, goals, {});
-  for (std::uint32_t group = 0; group < catalog.group_count(); ++group) {
+  for (GroupId group(0); group < catalog.group_count(); ++group) {
     const PlainModel model(catalog, {group}, assumptions);
     if (model.is_excluded(model.first_state())) return statistics.count("excluded");
     if (!run_group(model, watch)) return statistics.count("too many states");

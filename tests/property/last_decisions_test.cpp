@@ -81,7 +81,7 @@ class Questions final : private EventListener {
       is_queued |= coordinator_.state().queue().has(catalog_.tasks[task].catalog_index);
       ways.push_back({{Demand::Kind::has, task, value - catalog_.values.begin[task]}});
     }
-    const std::uint32_t group = catalog_.group_of(behavior);
+    const GroupId group = catalog_.group_of(behavior);
     const WhyUnmet answer = coordinator_.why_unmet(group, ways);
     if (is_queued) {
       EXPECT_EQ(answer.kind, WhyUnmet::Kind::due);
@@ -135,7 +135,7 @@ class Questions final : private EventListener {
   Statistics& statistics_;
   Coordinator coordinator_;
   std::map<BehaviorId, Known> known_;
-  std::map<std::uint32_t, std::pair<std::uint64_t, TaskId>> rejected_;  ///< event and task
+  std::map<GroupId, std::pair<std::uint64_t, TaskId>> rejected_;  ///< event and task
 };
 
 void run_case(std::uint64_t seed, Statistics& statistics) {

@@ -132,8 +132,8 @@ class Names {
 };
 
 struct Groups {
-  std::vector<std::uint32_t> of_old;
-  std::vector<std::uint32_t> of_new;
+  std::vector<GroupId> of_old;
+  std::vector<GroupId> of_new;
 };
 
 /// Puts groups together that have a name in common, until no two are left that have.
@@ -145,7 +145,7 @@ std::vector<Groups> join_groups(const CompiledCatalog& old_catalog,
   };
   std::vector<Named> all;
   const auto add = [&](const CompiledCatalog& catalog, bool is_new) {
-    for (std::uint32_t group = 0; group < catalog.group_count(); ++group) {
+    for (GroupId group(0); group < catalog.group_count(); ++group) {
       Named& one = all.emplace_back();
       (is_new ? one.groups.of_new : one.groups.of_old).push_back(group);
       for (const TaskId task : catalog.task_ids) {

@@ -24,7 +24,7 @@ std::set<std::uint32_t> variables_of(const std::vector<const Property*>& propert
 
 class PlainSearch {
  public:
-  PlainSearch(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
+  PlainSearch(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
               const Assumptions& assumptions, const std::vector<const Property*>& properties)
       : catalog_(catalog),
         model_(catalog, groups, assumptions, variables_of(properties)),
@@ -184,8 +184,7 @@ class PlainSearch {
 
 }  // namespace
 
-Exploration explore_plainly(const CompiledCatalog& catalog,
-                            const std::vector<std::uint32_t>& groups,
+Exploration explore_plainly(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
                             const Assumptions& assumptions,
                             const std::vector<const Property*>& properties,
                             std::uint64_t max_states) {

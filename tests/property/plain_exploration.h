@@ -17,7 +17,7 @@ namespace cbc::plain {
 /// states, at least 1, the search ends as explore() does at a limit. Throws std::runtime_error if a
 /// state is inconsistent, or the coordinator fails.
 [[nodiscard]] Exploration explore_plainly(const CompiledCatalog& catalog,
-                                          const std::vector<std::uint32_t>& groups,
+                                          const std::vector<GroupId>& groups,
                                           const Assumptions& assumptions,
                                           const std::vector<const Property*>& properties,
                                           std::uint64_t max_states);

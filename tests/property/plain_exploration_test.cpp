@@ -22,8 +22,8 @@ CompiledCatalog compile(const std::string& yaml) { return oracle::compile_yaml(y
 
 Exploration explore_all(const CompiledCatalog& catalog, const Assumptions& assumptions,
                         const std::vector<const Property*>& properties = {}) {
-  std::vector<std::uint32_t> groups;
-  for (std::uint32_t group = 0; group < catalog.group_count(); ++group) groups.push_back(group);
+  std::vector<GroupId> groups;
+  for (GroupId group(0); group < catalog.group_count(); ++group) groups.push_back(group);
   return explore_plainly(catalog, groups, assumptions, properties, most_states);
 }
 
@@ -42,7 +42,7 @@ TEST(PlainExploration, CountsOneTask) {
   // With a fault: stopped, running, each faulty or not. One move more in each of them.
   assumptions.faults = 1;
   Property can_start;
-  can_start.task = 0;
+  can_start.task = TaskId(0);
   result = explore_all(catalog, assumptions, {&can_start});
   EXPECT_EQ(result.states_at_depth, (Counts{1, 2, 1}));
   EXPECT_EQ(result.transitions, 14U);
@@ -70,7 +70,7 @@ exclusivity_constraints:
 )");
   Property settled;
   settled.kind = Property::Kind::never;
-  settled.condition.stopped = {0, 1};
+  settled.condition.stopped = {TaskId(0), TaskId(1)};
   settled.settled = true;
   const Exploration result = explore_all(catalog, default_assumptions(catalog), {&settled});
   EXPECT_EQ(result.states_at_depth, (Counts{1, 2, 1}));
@@ -143,11 +143,11 @@ TEST(PlainExploration, LeavesOutExcludedSituations) {
   Assumptions assumptions;
   assumptions.variables = {0, 1};
   assumptions.never.push_back({{{0, 1}, {1, 1}}, {}});
-  const Exploration result = explore_plainly(catalog, {0}, assumptions, {}, most_states);
+  const Exploration result = explore_plainly(catalog, {GroupId(0)}, assumptions, {}, most_states);
   EXPECT_EQ(result.states_at_depth, (Counts{1, 2}));
   EXPECT_EQ(result.transitions, 4U);
   // The other group has none of these variables, so nothing is excluded: one state.
-  EXPECT_EQ(explore_plainly(catalog, {1}, assumptions, {}, most_states).states, 1U);
+  EXPECT_EQ(explore_plainly(catalog, {GroupId(1)}, assumptions, {}, most_states).states, 1U);
 }
 
 TEST(PlainExploration, RefusesAnExcludedFirstState) {
@@ -155,19 +155,21 @@ TEST(PlainExploration, RefusesAnExcludedFirstState) {
   Assumptions assumptions;
   assumptions.initially.variables = {{0, 1}};
   assumptions.never.push_back({{{0, 1}}, {}});
-  const Exploration result = explore_plainly(catalog, {0}, assumptions, {}, most_states);
+  const Exploration result = explore_plainly(catalog, {GroupId(0)}, assumptions, {}, most_states);
   EXPECT_TRUE(result.error.has_value());
   // Variables that do not change have their initial value everywhere.
-  EXPECT_TRUE(explore_plainly(catalog, {1}, assumptions, {}, most_states).error.has_value());
+  EXPECT_TRUE(
+      explore_plainly(catalog, {GroupId(1)}, assumptions, {}, most_states).error.has_value());
   assumptions.variables = {0};
-  EXPECT_FALSE(explore_plainly(catalog, {1}, assumptions, {}, most_states).error.has_value());
+  EXPECT_FALSE(
+      explore_plainly(catalog, {GroupId(1)}, assumptions, {}, most_states).error.has_value());
 }
 
 // Stopped: start; own(A_BY) true or not. Running with own(A_BY) false, it may finish for that.
 TEST(PlainExploration, CountsOwnAnswers) {
   const CompiledCatalog catalog = compile("behaviors: [{behavior: A_BY, task: A}]");
   Assumptions assumptions = default_assumptions(catalog);
-  assumptions.behaviors = {0};
+  assumptions.behaviors = {BehaviorId(0)};
   const Exploration result = explore_all(catalog, assumptions);
   EXPECT_EQ(result.states_at_depth, (Counts{1, 2, 1}));
   EXPECT_EQ(result.transitions, 2U + 5 + 2 + 6);
@@ -176,10 +178,10 @@ TEST(PlainExploration, CountsOwnAnswers) {
 TEST(PlainExploration, ComparesPrioritiesInTheOrderOfTheList) {
   const CompiledCatalog catalog = compile("behaviors: [{behavior: A_BY, task: A}]");
   Assumptions assumptions;
-  assumptions.start = {{0, {3, 1}}};
+  assumptions.start = {{TaskId(0), {3, 1}}};
   Property runs;
   runs.kind = Property::Kind::reachable;
-  runs.condition.running = {{0, none}};
+  runs.condition.running = {{TaskId(0), none}};
   const Exploration result = explore_all(catalog, assumptions, {&runs});
   EXPECT_EQ(result.verdicts.at(0).result, Verdict::Result::proved);
   EXPECT_EQ(result.verdicts.at(0).script, (std::vector<Move>{{Move::Kind::start, 0, 3}}));

@@ -129,7 +129,7 @@ void handle_move(const CompiledCatalog& catalog, const Move& move, Coordinator& 
   demand(coordinator.handle(event) == Coordinator::Status::ok, coordinator.internal_error());
 }
 
-PlainModel::PlainModel(const CompiledCatalog& catalog, std::vector<std::uint32_t> groups,
+PlainModel::PlainModel(const CompiledCatalog& catalog, std::vector<GroupId> groups,
                        const Assumptions& assumptions, const std::set<std::uint32_t>& variables)
     : catalog_(catalog),
       assumptions_(assumptions),
@@ -163,7 +163,7 @@ PlainModel::PlainModel(const CompiledCatalog& catalog, std::vector<std::uint32_t
                is_fixed);
 }
 
-bool PlainModel::has_group(std::uint32_t group) const { return contains(groups_, group); }
+bool PlainModel::has_group(GroupId group) const { return contains(groups_, group); }
 
 Snapshot PlainModel::first_state() const {
   std::vector<Availability> own;

@@ -40,7 +40,7 @@ class PlainModel {
  public:
   /// The catalog and the assumptions must outlive the model.
   /// `variables` are part of the state, too.
-  PlainModel(const CompiledCatalog& catalog, std::vector<std::uint32_t> groups,
+  PlainModel(const CompiledCatalog& catalog, std::vector<GroupId> groups,
              const Assumptions& assumptions, const std::set<std::uint32_t>& variables = {});
 
   [[nodiscard]] Snapshot first_state() const;
@@ -73,7 +73,7 @@ class PlainModel {
   [[nodiscard]] const std::vector<std::uint32_t>& variables() const { return variables_; }
 
  private:
-  [[nodiscard]] bool has_group(std::uint32_t group) const;
+  [[nodiscard]] bool has_group(GroupId group) const;
   void add_starts(const Snapshot& state, std::vector<Move>& moves) const;
   void add_finishes(const Snapshot& state, std::vector<Move>& moves) const;
   void add_faults(const Snapshot& state, std::vector<Move>& moves) const;
@@ -81,7 +81,7 @@ class PlainModel {
 
   const CompiledCatalog& catalog_;
   const Assumptions& assumptions_;
-  std::vector<std::uint32_t> groups_;
+  std::vector<GroupId> groups_;
   std::vector<TaskId> tasks_;
   std::vector<BehaviorId> behaviors_;
   std::vector<std::uint32_t> variables_;

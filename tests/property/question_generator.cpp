@@ -34,20 +34,20 @@ class QuestionGenerator {
  private:
   /// Most often the largest group, which is the first of those.
   void choose_groups() {
-    std::vector<std::uint32_t> groups(catalog_.group_count());
-    for (std::uint32_t group = 0; group < groups.size(); ++group) groups[group] = group;
-    const auto size = [&](std::uint32_t group) {
+    std::vector<GroupId> groups(catalog_.group_count());
+    for (GroupId group(0); group < groups.size(); ++group) groups[group] = group;
+    const auto size = [&](GroupId group) {
       return catalog_.group_tasks[group + 1] - catalog_.group_tasks[group];
     };
     random_.shuffle(groups);
     if (random_.percent(80)) {
       std::stable_sort(groups.begin(), groups.end(),
-                       [&](std::uint32_t a, std::uint32_t b) { return size(a) > size(b); });
+                       [&](GroupId a, GroupId b) { return size(a) > size(b); });
     }
     groups.resize(std::min<std::size_t>(groups.size(), random_.percent(50) ? 1 : 2));
     std::sort(groups.begin(), groups.end());
     question_.groups = groups;
-    const auto has = [&](std::uint32_t group) { return contains(groups, group); };
+    const auto has = [&](GroupId group) { return contains(groups, group); };
     for (const TaskId task : catalog_.task_ids) {
       if (has(catalog_.tasks[task].group)) tasks_.push_back(task);
     }

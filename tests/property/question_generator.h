@@ -11,9 +11,9 @@ namespace cbc::plain {
 
 /// What to verify of a catalog.
 struct Question {
-  std::vector<std::uint32_t> groups;  ///< ascending
-  Assumptions assumptions;            ///< about all groups
-  std::vector<Property> properties;   ///< about these groups
+  std::vector<GroupId> groups;       ///< ascending
+  Assumptions assumptions;           ///< about all groups
+  std::vector<Property> properties;  ///< about these groups
 };
 
 /// A random question about one group, or about several of them. Properties name tasks and

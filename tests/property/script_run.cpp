@@ -38,7 +38,7 @@ class Recorder final : public RunListener {
 
   const CompiledCatalog& catalog_;
   const std::vector<TaskId>& tasks_;
-  std::vector<std::uint32_t> groups_;
+  std::vector<GroupId> groups_;
   ScriptRun& run_;
 };
 

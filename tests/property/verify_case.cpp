@@ -146,7 +146,7 @@ std::string text_of(const CompiledCatalog& catalog, const std::vector<Move>& scr
 std::string text_of(const VerifyCase& sample) {
   const Writer writer(sample.catalog);
   std::string text = sample.yaml + "--- groups";
-  for (const std::uint32_t group : sample.question.groups) text += " " + std::to_string(group);
+  for (const GroupId group : sample.question.groups) text += " " + std::to_string(group);
   text += "\n" + writer.assumptions(sample.question.assumptions);
   for (const Property& property : sample.question.properties) text += writer.property(property);
   return text;

@@ -91,7 +91,7 @@ bool has_timeout(const CompiledCatalog& catalog) {
 }
 
 bool has_reactive_task_elsewhere(const CompiledCatalog& catalog,
-                                 const std::vector<std::uint32_t>& groups) {
+                                 const std::vector<GroupId>& groups) {
   for (const auto& task : catalog.tasks) {
     if (task.reactive_start != 0 && !oracle::contains(groups, task.group)) return true;
   }
@@ -99,8 +99,7 @@ bool has_reactive_task_elsewhere(const CompiledCatalog& catalog,
 }
 
 void count_sort_of_script(const CompiledCatalog& catalog, const std::vector<Move>& moves,
-                          const std::vector<std::uint32_t>& groups,
-                          oracle::Statistics& statistics) {
+                          const std::vector<GroupId>& groups, oracle::Statistics& statistics) {
   const auto count = [&](const char* what, bool happened) {
     if (happened) statistics.count(what);
   };
@@ -199,10 +198,10 @@ VerifyCase generate_restless_case(Random& random) {
   for (const BehaviorId behavior : sample.catalog.behavior_ids) {
     if (random.percent(are_loners ? 80 : 30)) assumptions.behaviors.push_back(behavior);
   }
-  for (std::uint32_t group = 0; group < sample.catalog.group_count(); ++group) {
+  for (GroupId group(0); group < sample.catalog.group_count(); ++group) {
     if (random.percent(80)) sample.question.groups.push_back(group);
   }
-  if (sample.question.groups.empty()) sample.question.groups.push_back(0);
+  if (sample.question.groups.empty()) sample.question.groups.emplace_back(0);
   return sample;
 }
 

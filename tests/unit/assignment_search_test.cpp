@@ -47,9 +47,10 @@ TEST(AssignmentSearch, ConditionsCount) {
   Assignment solution;
   const std::vector<std::uint32_t> fits = {0};
   const std::vector<std::uint32_t> does_not_fit = {1};
-  EXPECT_EQ(search.find(0, {}, solution, fits), Feasibility::yes);
+  EXPECT_EQ(search.find(ValueId(0), {}, solution, fits), Feasibility::yes);
   int asked = 0;
-  while (asked < 10'000 && search.find(0, {}, solution, does_not_fit) == Feasibility::no) ++asked;
+  while (asked < 10'000 && search.find(ValueId(0), {}, solution, does_not_fit) == Feasibility::no)
+    ++asked;
   EXPECT_TRUE(search.is_exhausted());
   EXPECT_GT(asked, 1000);
 }

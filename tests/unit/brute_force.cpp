@@ -13,7 +13,7 @@ std::size_t behavior_of(const CompiledCatalog& catalog, TaskId task, std::uint32
   return catalog.values[task][index].behavior - first;
 }
 
-oracle::CatalogFacts facts_of(const CompiledCatalog& catalog, std::uint32_t group) {
+oracle::CatalogFacts facts_of(const CompiledCatalog& catalog, GroupId group) {
   const TaskId first = catalog.group_tasks[group];
   oracle::Catalog model;
   for (TaskId id = first; id < catalog.group_tasks[group + 1]; ++id) {
@@ -49,7 +49,7 @@ oracle::Problem model_of(const CompiledCatalog& catalog, const Problem& problem,
                          const std::vector<std::uint32_t>& ranks) {
   const TaskId first = catalog.group_tasks[problem.group];
   oracle::Problem model;
-  for (std::uint32_t task = 0; task < problem.may_stop.size(); ++task) {
+  for (LocalTask task(0); task < problem.may_stop.size(); ++task) {
     const TaskId id = first + task;
     std::vector<std::uint32_t> order;
     for (std::uint32_t index = 0; index < catalog.values[id].size(); ++index) {
@@ -66,7 +66,7 @@ oracle::Problem model_of(const CompiledCatalog& catalog, const Problem& problem,
     if (problem.may_stop[task] != 0) domain.push_back(oracle::none);
     model.before.push_back(behavior_of(catalog, id, problem.present[task]));
   }
-  for (const std::uint32_t task : problem.requests) {
+  for (const LocalTask task : problem.requests) {
     oracle::ActiveRequest& request = model.requests.emplace_back();
     request.task = task;
   }
@@ -86,7 +86,7 @@ BruteForce::BruteForce(const CompiledCatalog& catalog, const Problem& problem,
       evaluated_(oracle::enumerate(facts_, problem_)) {
   for (const oracle::Solution& solution : evaluated_) {
     Assignment& assignment = solutions_.emplace_back(solution.values.size(), none);
-    for (std::uint32_t task = 0; task < assignment.size(); ++task) {
+    for (LocalTask task(0); task < assignment.size(); ++task) {
       const TaskId id = first_task_ + task;
       for (std::uint32_t index = 0; index < catalog.values[id].size(); ++index) {
         if (behavior_of(catalog, id, index) == solution.values[task]) assignment[task] = index;

@@ -140,12 +140,12 @@ behaviors:
 exclusivity_constraints:
 - mutually_exclusive: [C, D]
 )");
-  Problem problem = open_problem(catalog, 1);
+  Problem problem = open_problem(catalog, GroupId(1));
   Checker checker(catalog);
   const auto what_is_left = [&](std::string_view text) {
-    Assignment answer = test::answer_of(catalog, text, 1);
+    Assignment answer = test::answer_of(catalog, text, GroupId(1));
     checker.stop_violating_tasks(problem, answer);
-    return test::show(catalog, answer, 1);
+    return test::show(catalog, answer, GroupId(1));
   };
   EXPECT_EQ(what_is_left("A=a B=b C=c2"), "A=a B=b C=c2");
   EXPECT_EQ(what_is_left("A=a B=b C=c1"), "C=c1");
@@ -165,7 +165,7 @@ TEST(Checker, AgreesWithBruteForceOnChangedAnswers) {
   for (int round = 0; round < test::rounds(2'000); ++round) {
     shape.tasks = static_cast<std::uint32_t>(random.between(2, 6));
     const CompiledCatalog catalog = compile(test::random_catalog(random, shape));
-    const std::uint32_t group = test::largest_group(catalog);
+    const GroupId group = test::largest_group(catalog);
     const Problem problem = test::random_problem(random, catalog, group);
     const test::BruteForce truth(catalog, problem);
     if (truth.solutions().empty()) continue;
@@ -173,7 +173,7 @@ TEST(Checker, AgreesWithBruteForceOnChangedAnswers) {
     for (int i = 0; i < 10; ++i) {
       Assignment answer = truth.solutions()[random.below(truth.solutions().size())];
       ASSERT_EQ(checker.find_violation(problem, answer), std::nullopt);
-      const std::size_t task = random.below(answer.size());
+      const LocalTask task(random.below(answer.size()));
       const auto values = catalog.values[catalog.group_tasks[group] + task].size();
       const std::size_t index = random.below(values + 1);
       answer[task] = index == values ? none : static_cast<std::uint32_t>(index);

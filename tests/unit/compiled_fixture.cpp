@@ -54,7 +54,7 @@ BehaviorId behavior_id(const CompiledCatalog& catalog, std::string_view name) {
   return catalog.behavior_ids[found_or_zero(catalog.find_behavior(name), name)];
 }
 
-std::uint32_t local_task(const CompiledCatalog& catalog, std::string_view name) {
+LocalTask local_task(const CompiledCatalog& catalog, std::string_view name) {
   const TaskId task = task_id(catalog, name);
   return task - catalog.group_tasks[catalog.tasks[task].group];
 }
@@ -70,7 +70,7 @@ std::uint32_t value_index(const CompiledCatalog& catalog, std::string_view task,
   return none;
 }
 
-Problem open_problem(const CompiledCatalog& catalog, std::uint32_t group) {
+Problem open_problem(const CompiledCatalog& catalog, GroupId group) {
   Problem problem;
   problem.group = group;
   const TaskId first = catalog.group_tasks[group];
@@ -114,9 +114,9 @@ void leave_out_all(Problem& problem, const CompiledCatalog& catalog, std::string
   }
 }
 
-std::string show(const CompiledCatalog& catalog, const Assignment& answer, std::uint32_t group) {
+std::string show(const CompiledCatalog& catalog, const Assignment& answer, GroupId group) {
   std::string text;
-  for (std::uint32_t task = 0; task < answer.size(); ++task) {
+  for (LocalTask task(0); task < answer.size(); ++task) {
     if (answer[task] == none) continue;
     const TaskId id = catalog.group_tasks[group] + task;
     if (!text.empty()) text += " ";
@@ -126,7 +126,7 @@ std::string show(const CompiledCatalog& catalog, const Assignment& answer, std::
   return text;
 }
 
-Assignment answer_of(const CompiledCatalog& catalog, std::string_view text, std::uint32_t group) {
+Assignment answer_of(const CompiledCatalog& catalog, std::string_view text, GroupId group) {
   Assignment answer(catalog.group_tasks[group + 1] - catalog.group_tasks[group], none);
   while (!text.empty()) {
     const std::string_view entry = text.substr(0, text.find(' '));

@@ -21,13 +21,13 @@ namespace cbc::test {
 [[nodiscard]] TaskId task_id(const CompiledCatalog& catalog, std::string_view name);
 [[nodiscard]] BehaviorId behavior_id(const CompiledCatalog& catalog, std::string_view name);
 /// Index of a task within its group.
-[[nodiscard]] std::uint32_t local_task(const CompiledCatalog& catalog, std::string_view name);
+[[nodiscard]] LocalTask local_task(const CompiledCatalog& catalog, std::string_view name);
 /// Index of a behavior among the values of a task.
 [[nodiscard]] std::uint32_t value_index(const CompiledCatalog& catalog, std::string_view task,
                                         std::string_view behavior);
 
 /// A problem in which every task of the group may have every value, and nothing runs before.
-[[nodiscard]] Problem open_problem(const CompiledCatalog& catalog, std::uint32_t group = 0);
+[[nodiscard]] Problem open_problem(const CompiledCatalog& catalog, GroupId group = GroupId());
 /// The task has to run.
 void demand(Problem& problem, const CompiledCatalog& catalog, std::string_view task);
 /// A request, less important than those added before.
@@ -43,9 +43,9 @@ void leave_out_all(Problem& problem, const CompiledCatalog& catalog, std::string
 
 /// The running tasks of an answer: "A=a B=b".
 [[nodiscard]] std::string show(const CompiledCatalog& catalog, const Assignment& answer,
-                               std::uint32_t group = 0);
+                               GroupId group = GroupId());
 /// The answer of which this is the text.
 [[nodiscard]] Assignment answer_of(const CompiledCatalog& catalog, std::string_view text,
-                                   std::uint32_t group = 0);
+                                   GroupId group = GroupId());
 
 }  // namespace cbc::test

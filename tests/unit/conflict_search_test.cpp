@@ -193,7 +193,7 @@ class RandomSearch {
   }
 
   const CompiledCatalog& catalog_;
-  const std::uint32_t group_;
+  const GroupId group_;
   test::Random& random_;
   std::vector<TaskId> tasks_;
   std::vector<std::uint32_t> assignment_;
@@ -270,8 +270,8 @@ class CrowdedSearch {
       : catalog_(test::compile_text(text)),
         present_(catalog_.tasks.size(), none),
         task_(catalog_.task_ids[*catalog_.find_task("ALL")]),
-        search_(catalog_, 0, present_, {{Demand::Kind::run, task_, none}}) {
-    RelevantTasks relevant(catalog_, 0);
+        search_(catalog_, GroupId(), present_, {{Demand::Kind::run, task_, none}}) {
+    RelevantTasks relevant(catalog_, GroupId());
     relevant.add(task_);
     relevant.close();
     for (const TaskId one : relevant.tasks()) {

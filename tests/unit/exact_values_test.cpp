@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/compile/compile.h"
-#include "core/report/words.h"
 #include "core/report/suitability.h"
+#include "core/report/words.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::exact_values_test {
@@ -18,7 +18,7 @@ double suitability(const std::vector<std::string>& percents) {
   }
   const CompiledCatalog catalog = test::compile_text(text);
   State state(catalog);
-  for (TaskId task = 0; task < catalog.tasks.size(); ++task) state.set_value(task, 0, 0);
+  for (TaskId task(0); task < catalog.tasks.size(); ++task) state.set_value(task, 0, 0);
   return total_suitability(catalog, state);
 }
 

@@ -44,13 +44,13 @@ class Branch {
   /// what is left has no solution.
   bool decide(Random& random, LandmarkBound& bound) {
     std::vector<Literal> choices;
-    for (const std::uint32_t task : domains_.needed_tasks()) {
+    for (const LocalTask task : domains_.needed_tasks()) {
       if (domains_.count(task) < 2) continue;
       for (std::uint32_t index = 0; index < domains_.values(task).size(); ++index) {
         if (domains_.has(task, index)) choices.push_back(trail_.has_value(task, index));
       }
     }
-    for (const std::uint32_t task : trail_.requests()) {
+    for (const LocalTask task : trail_.requests()) {
       const Literal runs = Trail::runs(task);
       if (!trail_.is_true(runs) && !trail_.is_false(runs)) choices.push_back(runs);
     }
@@ -73,17 +73,17 @@ class Branch {
   template <typename Use>
   void for_each_assignment(Use use) const {
     Assignment assignment(root_.size(), none);
-    visit(assignment, 0, use);
+    visit(assignment, LocalTask(0), use);
   }
   [[nodiscard]] bool is_possible_now(const Assignment& assignment) const {
-    for (std::uint32_t task = 0; task < assignment.size(); ++task) {
+    for (LocalTask task(0); task < assignment.size(); ++task) {
       const std::uint32_t index = assignment[task];
       if (index == none ? domains_.needed(task) : !domains_.has(task, index)) return false;
     }
     return true;
   }
   [[nodiscard]] bool holds(const Assignment& assignment, Literal literal) const {
-    for (std::uint32_t task = 0; task < assignment.size(); ++task) {
+    for (LocalTask task(0); task < assignment.size(); ++task) {
       if (literal == Trail::runs(task)) return assignment[task] != none;
       for (std::uint32_t index = 0; index < domains_.values(task).size(); ++index) {
         if (literal == trail_.has_value(task, index)) return assignment[task] == index;
@@ -93,7 +93,7 @@ class Branch {
     ADD_FAILURE() << "grounds say that a task does not run";
     return false;
   }
-  [[nodiscard]] std::int64_t cost(std::uint32_t task, std::uint32_t index, Measure measure) const {
+  [[nodiscard]] std::int64_t cost(LocalTask task, std::uint32_t index, Measure measure) const {
     const Value& value = domains_.value(task, index);
     if (measure == Measure::log) return value.suitability == 0 ? prohibitive_cost : value.cost;
     if (value.cost > 0 || value.suitability == 0) return prohibitive_cost;
@@ -101,7 +101,7 @@ class Branch {
   }
   [[nodiscard]] std::int64_t cost(const Assignment& assignment, Measure measure) const {
     std::int64_t sum = 0;
-    for (std::uint32_t task = 0; task < assignment.size(); ++task) {
+    for (LocalTask task(0); task < assignment.size(); ++task) {
       if (assignment[task] == none) continue;
       sum = std::min(prohibitive_cost, sum + cost(task, assignment[task], measure));
     }
@@ -111,21 +111,21 @@ class Branch {
   /// it: h^max in planning.
   [[nodiscard]] std::vector<std::int64_t> heights(Measure measure) const {
     std::vector<std::int64_t> heights(domains_.task_count(), unknown);
-    for (std::uint32_t task = 0; task < heights.size(); ++task) find_height(task, measure, heights);
+    for (LocalTask task(0); task < heights.size(); ++task) find_height(task, measure, heights);
     return heights;
   }
 
  private:
   static constexpr std::int64_t unknown = -1;
 
-  std::int64_t find_height(std::uint32_t task, Measure measure,
+  std::int64_t find_height(LocalTask task, Measure measure,
                            std::vector<std::int64_t>& heights) const {
     if (heights[task] != unknown) return heights[task];
     std::int64_t least = prohibitive_cost;
     for (std::uint32_t index = 0; index < domains_.values(task).size(); ++index) {
       if (!domains_.has(task, index)) continue;
       std::int64_t highest = 0;
-      for (const std::uint32_t required : required_by(task, index)) {
+      for (const LocalTask required : required_by(task, index)) {
         if (domains_.needed(required)) continue;
         highest = std::max(highest, find_height(required, measure, heights));
       }
@@ -135,7 +135,7 @@ class Branch {
   }
 
   void remember_root() {
-    for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
+    for (LocalTask task(0); task < domains_.task_count(); ++task) {
       std::vector<std::uint32_t>& values = root_.emplace_back();
       if (!domains_.needed(task)) values.push_back(none);
       for (std::uint32_t index = 0; index < domains_.values(task).size(); ++index) {
@@ -144,9 +144,8 @@ class Branch {
     }
   }
 
-  [[nodiscard]] std::vector<std::uint32_t> required_by(std::uint32_t task,
-                                                       std::uint32_t index) const {
-    std::vector<std::uint32_t> tasks;
+  [[nodiscard]] std::vector<LocalTask> required_by(LocalTask task, std::uint32_t index) const {
+    std::vector<LocalTask> tasks;
     for (const CompiledRequirement& one :
          catalog_.requirements[domains_.value(task, index).behavior]) {
       tasks.push_back(one.task - domains_.first_task());
@@ -155,20 +154,20 @@ class Branch {
   }
 
   template <typename Use>
-  void visit(Assignment& assignment, std::uint32_t task, Use& use) const {
+  void visit(Assignment& assignment, LocalTask task, Use& use) const {
     if (task == assignment.size()) {
       if (meets_requirements(assignment)) use(assignment);
       return;
     }
     for (const std::uint32_t value : root_[task]) {
       assignment[task] = value;
-      visit(assignment, task + 1, use);
+      visit(assignment, LocalTask(task + 1), use);
     }
   }
   [[nodiscard]] bool meets_requirements(const Assignment& assignment) const {
-    for (std::uint32_t task = 0; task < assignment.size(); ++task) {
+    for (LocalTask task(0); task < assignment.size(); ++task) {
       if (assignment[task] == none) continue;
-      for (const std::uint32_t required : required_by(task, assignment[task])) {
+      for (const LocalTask required : required_by(task, assignment[task])) {
         if (assignment[required] == none) return false;
       }
     }
@@ -194,7 +193,7 @@ void check_heights(const Branch& branch, LandmarkBound& bound, Measure measure, 
   const std::int64_t value = bound.raise(INT64_MAX);
   const std::vector<std::int64_t> heights = branch.heights(measure);
   std::int64_t highest = 0;
-  for (const std::uint32_t task : branch.domains().needed_tasks()) {
+  for (const LocalTask task : branch.domains().needed_tasks()) {
     highest = std::max(highest, heights[task]);
   }
   ++tally.bounds;
@@ -210,7 +209,7 @@ void check_bound(const Branch& branch, LandmarkBound& bound, Measure measure) {
     const std::int64_t cost = branch.cost(assignment, measure);
     if (cost >= prohibitive_cost || !branch.is_possible_now(assignment)) return;
     std::int64_t with_residuals = value;
-    for (std::uint32_t task = 0; task < assignment.size(); ++task) {
+    for (LocalTask task(0); task < assignment.size(); ++task) {
       const std::uint32_t index = assignment[task];
       if (index != none) with_residuals += bound.residual(task, index);
     }
@@ -273,7 +272,7 @@ class LandmarkBoundTest : public testing::Test {
     anew.set_measure(measure);
     EXPECT_EQ(bound.raise(INT64_MAX), anew.raise(INT64_MAX));
     EXPECT_EQ(bound.level(), branch.trail().level());
-    for (std::uint32_t task = 0; task < branch.domains().task_count(); ++task) {
+    for (LocalTask task(0); task < branch.domains().task_count(); ++task) {
       for (std::uint32_t index = 0; index < branch.domains().values(task).size(); ++index) {
         EXPECT_EQ(bound.residual(task, index), anew.residual(task, index));
       }

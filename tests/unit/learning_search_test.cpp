@@ -35,7 +35,7 @@ Answer solve(const CompiledCatalog& catalog, const Problem& problem, std::uint64
   Solver solver(catalog, options, ranks);
   Answer answer;
   answer.result = solver.solve(problem, answer.solution);
-  if (has_solution(answer.result.status)) answer.text = test::show(catalog, answer.solution, 0);
+  if (has_solution(answer.result.status)) answer.text = test::show(catalog, answer.solution);
   return answer;
 }
 
@@ -183,7 +183,7 @@ TEST(LearningSearch, FindsTheBestAssignment) {
     EXPECT_EQ(learned.result.status, SearchStatus::optimal);
     std::int64_t product = 1;
     for (std::size_t task = 0; task < size; ++task) {
-      const std::uint32_t local = test::local_task(catalog, fmt::format("T{}", task));
+      const LocalTask local = test::local_task(catalog, fmt::format("T{}", task));
       const Value& value =
           catalog.values[catalog.group_tasks[problem.group] + local][learned.solution[local]];
       product *= value.suitability / 10'000;

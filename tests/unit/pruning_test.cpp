@@ -56,7 +56,7 @@ class Subtree {
   }
   /// Decides as in a solution, with this chance for each task, in percent.
   void follow(const Assignment& solution, test::Random& random, std::size_t chance) {
-    for (std::uint32_t task = 0; task < domains.task_count(); ++task) {
+    for (LocalTask task(0); task < domains.task_count(); ++task) {
       const std::uint32_t index = solution[task];
       EXPECT_TRUE(problem.may_stop[task] != 0 || domains.need(task));
       if (!random.percent(chance)) continue;
@@ -83,13 +83,14 @@ class Subtree {
   Objective objective{catalog, domains, components, ranks};
 
  private:
-  [[nodiscard]] std::uint32_t local(std::string_view task) const {
+  [[nodiscard]] LocalTask local(std::string_view task) const {
     return test::local_task(catalog, task);
   }
   [[nodiscard]] std::string describe() const {
     std::string text;
-    for (std::uint32_t task = 0; task < domains.task_count(); ++task) {
-      text += (task == 0 ? "" : " ") + std::string(catalog.name_of_task(task)) +
+    for (LocalTask task(0); task < domains.task_count(); ++task) {
+      text += (task == 0 ? "" : " ") +
+              std::string(catalog.name_of_task(domains.first_task() + task)) +
               (domains.may_stop(task) ? "?:" : ":");
       for (std::uint32_t index = 0; index < domains.values(task).size(); ++index) {
         if (!domains.has(task, index)) continue;
@@ -250,7 +251,7 @@ behaviors:
 )",
                   {"A"});
   expect_equal(subtree.bound(), cost(log_cost(1), 0));
-  EXPECT_TRUE(subtree.domains.remove(0, 0));
+  EXPECT_TRUE(subtree.domains.remove(LocalTask(0), 0));
   EXPECT_GT(subtree.bound(), cost(std::int64_t{1} << 60, 0));
 }
 
@@ -260,7 +261,7 @@ behaviors:
 std::optional<Cost> cost_of(const CompiledCatalog& catalog, TaskId first,
                             const Assignment& solution) {
   Cost sum;
-  for (std::uint32_t task = 0; task < solution.size(); ++task) {
+  for (LocalTask task(0); task < solution.size(); ++task) {
     if (solution[task] == none) continue;
     const Value& value = catalog.values[first + task][solution[task]];
     if (value.suitability == 0) return std::nullopt;
@@ -280,7 +281,7 @@ class Root {
     subtree.load();
     const Domains& domains = subtree.domains;
     bool is_consistent = true;
-    for (std::uint32_t task = 0; task < domains.task_count(); ++task) {
+    for (LocalTask task(0); task < domains.task_count(); ++task) {
       if (subtree.problem.may_stop[task] == 0 && !subtree.domains.need(task)) is_consistent = false;
     }
     if (!is_consistent || !subtree.propagator.propagate()) {
@@ -290,7 +291,7 @@ class Root {
     }
     std::optional<Cost> optimum;
     for (const Assignment& solution : truth.solutions()) {
-      for (std::uint32_t task = 0; task < solution.size(); ++task) {
+      for (LocalTask task(0); task < solution.size(); ++task) {
         ASSERT_TRUE(solution[task] == none ? domains.may_stop(task)
                                            : domains.has(task, solution[task]));
       }
@@ -299,7 +300,7 @@ class Root {
     }
     Assignment least(domains.task_count(), none);
     bool is_decided = true;
-    for (const std::uint32_t task : domains.needed_tasks()) {
+    for (const LocalTask task : domains.needed_tasks()) {
       is_decided = is_decided && domains.count(task) == 1;
       least[task] = domains.best(task);
     }

@@ -117,18 +117,18 @@ void make_perfect(Catalog& catalog) {
   }
 }
 
-std::uint32_t largest_group(const CompiledCatalog& catalog) {
-  std::uint32_t largest = 0;
-  const auto size = [&](std::uint32_t group) {
+GroupId largest_group(const CompiledCatalog& catalog) {
+  GroupId largest;
+  const auto size = [&](GroupId group) {
     return catalog.group_tasks[group + 1] - catalog.group_tasks[group];
   };
-  for (std::uint32_t group = 1; group < catalog.group_count(); ++group) {
+  for (GroupId group(1); group < catalog.group_count(); ++group) {
     if (size(group) > size(largest)) largest = group;
   }
   return largest;
 }
 
-Problem random_problem(Random& random, const CompiledCatalog& catalog, std::uint32_t group) {
+Problem random_problem(Random& random, const CompiledCatalog& catalog, GroupId group) {
   const TaskId first = catalog.group_tasks[group];
   const std::uint32_t tasks = catalog.group_tasks[group + 1] - first;
   Problem problem;
@@ -141,15 +141,15 @@ Problem random_problem(Random& random, const CompiledCatalog& catalog, std::uint
   const Kind kind = random.percent(70)   ? Kind::start
                     : random.percent(50) ? Kind::stop
                                          : Kind::finish;
-  const auto subject = static_cast<std::uint32_t>(random.below(tasks));
+  const LocalTask subject(random.below(tasks));
   const std::size_t running = random.below(100);
-  for (std::uint32_t task = 0; task < tasks; ++task) {
+  for (LocalTask task(0); task < tasks; ++task) {
     const std::size_t values = catalog.values[first + task].size();
     if (values > 0 && random.percent(running)) {
       problem.present[task] = static_cast<std::uint32_t>(random.below(values));
     }
   }
-  const auto behavior_before = [&](std::uint32_t task) {
+  const auto behavior_before = [&](LocalTask task) {
     return problem.present[task] == none
                ? none
                : catalog.values[first + task][problem.present[task]].behavior;
@@ -159,7 +159,7 @@ Problem random_problem(Random& random, const CompiledCatalog& catalog, std::uint
   const std::size_t available = 50 + random.below(51);
   const std::size_t is_protected = random.below(40);
 
-  for (std::uint32_t task = 0; task < tasks; ++task) {
+  for (LocalTask task(0); task < tasks; ++task) {
     const BehaviorId before = behavior_before(task);
     const bool on_request = catalog.tasks[first + task].start_on_request;
     const bool has_finished = before != none && before == finished;
@@ -216,7 +216,7 @@ CompiledCatalog random_nested_components(Random& random) {
 
 void run_some(Random& random, const CompiledCatalog& catalog, Problem& problem) {
   const TaskId first = catalog.group_tasks[problem.group];
-  for (std::uint32_t task = 0; task < problem.present.size(); ++task) {
+  for (LocalTask task(0); task < problem.present.size(); ++task) {
     const auto values = catalog.values[first + task];
     if (values.empty() || !random.percent(40)) continue;
     problem.present[task] = static_cast<std::uint32_t>(random.below(values.size()));
@@ -231,7 +231,7 @@ Problem random_open_problem(Random& random, const CompiledCatalog& catalog) {
   const std::size_t tasks = problem.may_stop.size();
   const std::size_t requests = 2 + random.below(6);
   for (std::size_t i = 0; i < requests; ++i) {
-    const auto task = static_cast<std::uint32_t>(random.below(tasks));
+    const LocalTask task(random.below(tasks));
     if (std::count(problem.requests.begin(), problem.requests.end(), task) > 0) continue;
     problem.requests.push_back(task);
     if (random.percent(30) || i == 0) problem.may_stop[task] = 0;

@@ -39,12 +39,11 @@ void make_perfect(Catalog& catalog);
 [[nodiscard]] CompiledCatalog random_nested_components(Random& random);
 
 /// A group with the most tasks.
-[[nodiscard]] std::uint32_t largest_group(const CompiledCatalog& catalog);
+[[nodiscard]] GroupId largest_group(const CompiledCatalog& catalog);
 
 /// A problem as an event (a start, a stop or a finish) in a state that may be reached poses it:
 /// what starts on request only either has a request or stays at "not running".
-[[nodiscard]] Problem random_problem(Random& random, const CompiledCatalog& catalog,
-                                     std::uint32_t group);
+[[nodiscard]] Problem random_problem(Random& random, const CompiledCatalog& catalog, GroupId group);
 
 /// Lets some tasks of the problem's group run before the event, with any of their behaviors.
 void run_some(Random& random, const CompiledCatalog& catalog, Problem& problem);

@@ -30,7 +30,7 @@ using test::Random;
 
 /// Whether a literal holds in a solution.
 bool holds(const CatalogTrail& trail, const Assignment& solution, Literal literal) {
-  const std::uint32_t task = trail.task_of(variable_of(literal));
+  const LocalTask task = trail.task_of(variable_of(literal));
   const std::uint32_t index = solution[task];
   const Literal variable = literal & ~Literal{1};
   const bool is_true =
@@ -74,7 +74,7 @@ class Branch {
   /// A literal to decide: that a task runs, or a value of one that does. None is left: `none`.
   [[nodiscard]] Literal choose(Random& random) const {
     std::vector<Literal> choices;
-    for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
+    for (LocalTask task(0); task < domains_.task_count(); ++task) {
       const Literal runs = Trail::runs(task);
       if (!trail_.is_true(runs) && !trail_.is_false(runs)) choices.push_back(runs);
       if (!domains_.needed(task) || domains_.count(task) < 2) continue;
@@ -261,9 +261,9 @@ TEST(Reasons, NameEachRemovalOfMoreThanSixtyFourValues) {
   const CompiledCatalog catalog =
       test::compile_text(many_behaviors() + "- {behavior: b, task: B}\n");
   const Problem problem = test::open_problem(catalog);
-  const std::uint32_t task = test::local_task(catalog, "A");
+  const LocalTask task = test::local_task(catalog, "A");
   Branch branch(catalog, problem);
-  const std::uint32_t required = test::local_task(catalog, "B");
+  const LocalTask required = test::local_task(catalog, "B");
   branch.decide(Trail::runs(task));
   for (std::uint32_t index = 0; index < many; ++index) {
     EXPECT_FALSE(branch.domains().needed(required));
@@ -287,7 +287,7 @@ TEST(Reasons, OfPerformancesNameEachRemovalOfMoreThanSixtyFourValues) {
       "- {behavior: b, task: B, requires: [{task: C}]}\n"
       "- {behavior: c, task: C, suitability: 50}\n");
   const Problem problem = test::open_problem(catalog);
-  const std::uint32_t task = test::local_task(catalog, "A");
+  const LocalTask task = test::local_task(catalog, "A");
   Branch branch(catalog, problem);
   branch.decide(Trail::runs(test::local_task(catalog, "M")));
   for (std::uint32_t index = 0; index < many; ++index) {
@@ -302,7 +302,7 @@ TEST(Reasons, OfPerformancesNameEachRemovalOfMoreThanSixtyFourValues) {
 
 std::string describe(const Domains& domains) {
   std::string text;
-  for (std::uint32_t task = 0; task < domains.task_count(); ++task) {
+  for (LocalTask task(0); task < domains.task_count(); ++task) {
     text += domains.needed(task) ? " " : " ?";
     for (std::uint32_t index = 0; index < domains.values(task).size(); ++index) {
       if (domains.has(task, index)) text += std::to_string(index) + ",";
@@ -325,7 +325,7 @@ TEST(Reasons, ComeWithAllThatThePropagatorInfers) {
     domains.load(problem);
     propagator.load(problem);
     bool is_consistent = true;
-    for (std::uint32_t task = 0; task < domains.task_count() && is_consistent; ++task) {
+    for (LocalTask task(0); task < domains.task_count() && is_consistent; ++task) {
       if (problem.may_stop[task] == 0) is_consistent = domains.need(task);
     }
     is_consistent = is_consistent && propagator.propagate();
@@ -336,7 +336,7 @@ TEST(Reasons, ComeWithAllThatThePropagatorInfers) {
       ASSERT_EQ(describe(branch.domains()), describe(domains));
       const Literal literal = branch.choose(random);
       if (literal == none) break;
-      const std::uint32_t task = branch.trail().task_of(variable_of(literal));
+      const LocalTask task = branch.trail().task_of(variable_of(literal));
       is_consistent = domains.need(task);
       for (std::uint32_t index = 0; index < domains.values(task).size(); ++index) {
         if (literal != branch.trail().has_value(task, index)) continue;
@@ -434,12 +434,12 @@ class RandomSearch {
   /// Requests first, then values; none if all is decided.
   [[nodiscard]] Literal choose(Random& random) const {
     std::vector<Literal> choices;
-    for (const std::uint32_t task : trail_.requests()) {
+    for (const LocalTask task : trail_.requests()) {
       const Literal runs = Trail::runs(task);
       if (!trail_.is_true(runs) && !trail_.is_false(runs)) choices.push_back(runs);
     }
     if (choices.empty()) {
-      for (const std::uint32_t task : domains_.needed_tasks()) {
+      for (const LocalTask task : domains_.needed_tasks()) {
         if (domains_.count(task) < 2) continue;
         for (std::uint32_t index = 0; index < domains_.values(task).size(); ++index) {
           if (domains_.has(task, index)) choices.push_back(trail_.has_value(task, index));

@@ -108,7 +108,7 @@ TEST(SearchBound, OfAnAnswerThatServesAllRequests) {
 
 TEST(SearchBound, OfAnAnswerThatNoSearchFound) {
   const CompiledCatalog catalog = test::compile_text(std::string("tasks: [{task: X}]") + pairs);
-  const std::uint32_t group = catalog.tasks[test::task_id(catalog, "A")].group;
+  const GroupId group = catalog.tasks[test::task_id(catalog, "A")].group;
   ASSERT_EQ(group, 1U);
   const std::vector<std::uint32_t> ranks;
   Solver solver(catalog, {}, ranks);
@@ -118,7 +118,7 @@ TEST(SearchBound, OfAnAnswerThatNoSearchFound) {
     Problem before = test::open_problem(catalog, group);
     test::demand(before, catalog, "B");
     EXPECT_EQ(solver.solve(before, solution).status, SearchStatus::optimal);
-    EXPECT_EQ(solver.solve(test::open_problem(catalog, 0), solution).status, SearchStatus::optimal);
+    EXPECT_EQ(solver.solve(test::open_problem(catalog), solution).status, SearchStatus::optimal);
     return solver.bound(problem, Assignment(problem.may_stop.size(), none));
   };
 

@@ -38,25 +38,28 @@ TEST(Restarts, AreAsFarApartAsLubyProposes) {
 /// Also where the numbers would become too large: 1.05 to the power of 20,000 is about 10 to that
 /// of 424.
 TEST(Activities, OfWhatIsNotedTwiceAsOftenAreAboutTwiceAsHigh) {
+  const LocalTask first(0);
+  const LocalTask second(1);
+  const LocalTask third(2);
   Activities activities;
   activities.clear(3);
   for (int conflict = 1; conflict <= 20'000; ++conflict) {
-    activities.note(0);
-    if (conflict % 2 == 0) activities.note(1);
+    activities.note(first);
+    if (conflict % 2 == 0) activities.note(second);
     activities.age();
     if (conflict % 1'000 != 0) continue;
-    const double share = activities[1] / activities[0];
+    const double share = activities[second] / activities[first];
     EXPECT_GT(share, 0.45) << conflict;
     EXPECT_LT(share, 0.55) << conflict;
   }
-  EXPECT_EQ(activities[2], 0);
-  activities.note(2);
-  EXPECT_GT(activities[2], 0);
-  EXPECT_LT(activities[2], activities[0]);
+  EXPECT_EQ(activities[third], 0);
+  activities.note(third);
+  EXPECT_GT(activities[third], 0);
+  EXPECT_LT(activities[third], activities[first]);
   activities.clear(3);
-  EXPECT_EQ(activities[0], 0);
-  activities.note(0);
-  EXPECT_EQ(activities[0], 1);
+  EXPECT_EQ(activities[first], 0);
+  activities.note(first);
+  EXPECT_EQ(activities[first], 1);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TEST(SolverAllocation, NothingIsAllocatedInTheSearch) {
       Assignment solution;
       solution.reserve(catalog.tasks.size());
       for (int i = 0; i < 3; ++i) {
-        const auto group = static_cast<std::uint32_t>(random.below(catalog.group_count()));
+        const GroupId group(random.below(catalog.group_count()));
         const Problem problem = test::random_problem(random, catalog, group);
         const std::uint64_t before = test::allocations();
         nodes += solver.solve(problem, solution).nodes;

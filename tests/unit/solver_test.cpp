@@ -88,10 +88,10 @@ behaviors:
 - {behavior: e, task: E}
 )");
   for (const std::uint64_t easy_nodes : {std::uint64_t{0}, never}) {
-    Problem first = open_problem(catalog, 0);
+    Problem first = open_problem(catalog, GroupId(0));
     test::demand(first, catalog, "A");
     EXPECT_EQ(text_of(catalog, first, restarting_after(easy_nodes)), "A=a2 B=b");
-    Problem second = open_problem(catalog, 1);
+    Problem second = open_problem(catalog, GroupId(1));
     test::demand(second, catalog, "C");
     EXPECT_EQ(text_of(catalog, second, restarting_after(easy_nodes)), "C=c1 E=e");
   }
@@ -137,18 +137,18 @@ behaviors:
 - {behavior: y, task: Y, suitability: 0}
 - {behavior: w, task: W, suitability: 0}
 )");
-  Problem without_zero = open_problem(catalog, 0);
+  Problem without_zero = open_problem(catalog, GroupId(0));
   test::demand(without_zero, catalog, "X");
-  Problem with_zero = open_problem(catalog, 1);
+  Problem with_zero = open_problem(catalog, GroupId(1));
   test::demand(with_zero, catalog, "ALL");
   for (const std::uint64_t easy_nodes : {std::uint64_t{0}, never}) {
     const std::vector<std::uint32_t> ranks;
     Solver solver(catalog, restarting_after(easy_nodes), ranks);
     Assignment answer;
     EXPECT_EQ(solver.solve(without_zero, answer).status, SearchStatus::optimal);
-    EXPECT_EQ(test::show(catalog, answer, 0), "X=x2");
+    EXPECT_EQ(test::show(catalog, answer, GroupId(0)), "X=x2");
     EXPECT_EQ(solver.solve(with_zero, answer).status, SearchStatus::optimal);
-    EXPECT_EQ(test::show(catalog, answer, 1), "ALL=all P=p2 Q=q2 Z=z1 Y=y");
+    EXPECT_EQ(test::show(catalog, answer, GroupId(1)), "ALL=all P=p2 Q=q2 Z=z1 Y=y");
   }
 }
 
@@ -190,7 +190,7 @@ exclusivity_constraints:
 /// Orders the values of equal suitability of each task at random.
 std::vector<std::uint32_t> random_ranks(test::Random& random, const CompiledCatalog& catalog) {
   std::vector<std::uint32_t> ranks;
-  for (TaskId task = 0; task < catalog.tasks.size(); ++task) {
+  for (TaskId task(0); task < catalog.tasks.size(); ++task) {
     const auto values = catalog.values[task];
     std::vector<std::uint32_t> order(values.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -284,7 +284,7 @@ class Agreement {
     const SearchBound& bound = answer.result.bound;
     std::uint32_t most = bound.more_requests;
     std::uint32_t served = 0;
-    for (const std::uint32_t task : problem.requests) {
+    for (const LocalTask task : problem.requests) {
       if (answer.assignment[task] != none) ++most;
       if (best[task] != none) ++served;
       if (bound.same_requests) {
@@ -303,7 +303,7 @@ class Agreement {
   static long double suitability_of(const CompiledCatalog& catalog, const Problem& problem,
                                     const Assignment& answer) {
     long double product = 1;
-    for (std::uint32_t task = 0; task < answer.size(); ++task) {
+    for (LocalTask task(0); task < answer.size(); ++task) {
       if (answer[task] == none) continue;
       product *=
           catalog.values[catalog.group_tasks[problem.group] + task][answer[task]].suitability;
@@ -563,9 +563,9 @@ TEST(Solver, TakesTheSameWorkBehindAnotherGroup) {
     const CompiledCatalog second = compile(written);
     Problem moved = problem;
     ++moved.group;
-    const BehaviorId further =
+    const std::uint32_t further =
         second.group_behaviors[moved.group] - first.group_behaviors[problem.group];
-    for (BehaviorId& behavior : moved.active) behavior += further;
+    for (BehaviorId& behavior : moved.active) behavior = BehaviorId(behavior + further);
     SearchOptions limited = learning_after(0, 0);
     limited.max_nodes = 1;
     for (const SearchOptions& options :

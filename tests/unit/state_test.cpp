@@ -14,16 +14,18 @@ TEST(State, ATimeoutThatWasHandledIsDueAgainOnlyAfterAnotherActivation) {
   const CompiledCatalog catalog =
       test::compile_text("tasks: [{task: A, timeout: 10}]\nbehaviors: [{behavior: a, task: A}]\n");
   State state(catalog);
-  state.set_active(0, 2 * second);
-  state.set_value(0, 0, 2 * second);
-  state.update_timeout(0, 2 * second);
-  state.update_timeout(0, 12 * second);
+  const TaskId task(0);
+  const BehaviorId behavior(0);
+  state.set_active(behavior, 2 * second);
+  state.set_value(task, 0, 2 * second);
+  state.update_timeout(task, 2 * second);
+  state.update_timeout(task, 12 * second);
   EXPECT_EQ(state.timeouts().first_due(), 12 * second) << "still waited for";
-  state.drop_timeout(0);
-  state.update_timeout(0, 12 * second);
+  state.drop_timeout(task);
+  state.update_timeout(task, 12 * second);
   EXPECT_TRUE(state.timeouts().empty());
-  state.set_active(0, 12 * second);
-  state.update_timeout(0, 12 * second);
+  state.set_active(behavior, 12 * second);
+  state.update_timeout(task, 12 * second);
   EXPECT_EQ(state.timeouts().first_due(), 22 * second);
 }
 

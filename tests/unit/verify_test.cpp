@@ -210,14 +210,14 @@ TEST(Verify, RefusesArraysThatDoNotFit) {
   expect_faults({
       {"'task_ids' has 9 entries, expected 10", [](auto& c) { c.arrays.task_ids.pop_back(); }},
       {"'group_behaviors' has 6 entries, expected 5",
-       [](auto& c) { c.arrays.group_behaviors.push_back(81); }},
+       [](auto& c) { c.arrays.group_behaviors.emplace_back(81); }},
       {"'group_tasks' has 0 entries, expected 5",
        [](auto& c) {
          c.arrays.group_tasks.clear();
          c.arrays.group_behaviors.clear();
        }},
       {"'value_tasks' has 83 entries, expected 82",
-       [](auto& c) { c.arrays.value_tasks.push_back(9); }},
+       [](auto& c) { c.arrays.value_tasks.emplace_back(9); }},
       {"there are 0 begins of texts, expected 93 for the names and the source",
        [](auto& c) { c.arrays.texts.begin.clear(); }},
       {"there are 92 begins of texts, expected 93 for the names and the source",
@@ -242,7 +242,7 @@ TEST(Verify, RefusesArraysThatDoNotFit) {
          c.arrays.performs.items.pop_back();
        }},
       {"entry 4 of 'group_tasks' does not follow from the other arrays",
-       [](auto& c) { c.arrays.group_tasks.back() = 11; }},
+       [](auto& c) { c.arrays.group_tasks.back() = TaskId(11); }},
       {"entry 10 of 'incoming_begin' does not follow from the other arrays",
        [](auto& c) {
          ++c.arrays.incoming.begin.back();
@@ -334,7 +334,8 @@ TEST(Verify, RefusesGroups) {
          std::swap(c.arrays.tasks[4].catalog_index, c.arrays.tasks[6].catalog_index);
          std::swap(c.arrays.tasks[4].catalog_index, c.arrays.tasks[5].catalog_index);
          std::swap(c.arrays.task_ids[1], c.arrays.task_ids[5]);
-         c.arrays.task_ids = {0, 6, 1, 4, 2, 5, 3, 7, 8, 9};
+         const std::array ids{0, 6, 1, 4, 2, 5, 3, 7, 8, 9};
+         c.arrays.task_ids = std::vector<TaskId>(ids.begin(), ids.end());
        }},
       {"behavior 0: its place in the catalog is 4294967295 of 81",
        [](auto& c) { c.arrays.behaviors[0].catalog_index = none; }},
@@ -346,7 +347,7 @@ TEST(Verify, RefusesGroups) {
          std::swap(c.arrays.behavior_ids[2], c.arrays.behavior_ids[3]);
        }},
       {"entry 8 of 'tasks' does not follow from the other arrays",
-       [](auto& c) { c.arrays.tasks[8].group = 7; }},
+       [](auto& c) { c.arrays.tasks[8].group = GroupId(7); }},
   });
 }
 
@@ -377,7 +378,8 @@ TEST(Verify, RefusesAttributes) {
 
 TEST(Verify, RefusesValues) {
   expect_faults({
-      {"behavior 6 performs no task", [](auto& c) { c.arrays.values.items[7].behavior = 5; }},
+      {"behavior 6 performs no task",
+       [](auto& c) { c.arrays.values.items[7].behavior = BehaviorId(5); }},
       {"task 0 has a value with behavior 4294967295 of 81",
        [](auto& c) { c.arrays.values.items[0].behavior = none; }},
       {"task 5 has a value with a suitability of 2000000 millionths, which is over 1",
@@ -386,32 +388,32 @@ TEST(Verify, RefusesValues) {
       {"task 5 has a value with a wrong cost",
        [](auto& c) { c.arrays.values.items[9].suitability = 910'000; }},
       {"entry 4 of 'value_tasks' does not follow from the other arrays",
-       [](auto& c) { c.arrays.value_tasks[4] = 2; }},
+       [](auto& c) { c.arrays.value_tasks[4] = TaskId(2); }},
       {"the values of task 0 are not in rank order",
        [](auto& c) { std::swap(c.arrays.values.items[0], c.arrays.values.items[1]); }},
       {"the values of task 0 are not in rank order",
        [](auto& c) { std::swap(c.arrays.values.items[1], c.arrays.values.items[2]); }},
       {"the values of task 0 are not in rank order",
-       [](auto& c) { c.arrays.values.items[2].behavior = 1; }},
+       [](auto& c) { c.arrays.values.items[2].behavior = BehaviorId(1); }},
       {"entry 7 of 'words' does not follow from the other arrays",
        [](auto& c) { ++c.arrays.words[7]; }},
       {"entry 2 of 'performs' does not follow from the other arrays",
        [](auto& c) { std::swap(c.arrays.performs.items[2], c.arrays.performs.items[3]); }},
       {"entry 5 of 'performs' does not follow from the other arrays",
-       [](auto& c) { c.arrays.performs.items[5] = 82; }},
+       [](auto& c) { c.arrays.performs.items[5] = ValueId(82); }},
       {"behavior 2 performs no task",
        [](auto& c) {  // a3 performs nothing, c1 two tasks
          --c.arrays.performs.begin[3];
-         c.arrays.values.items[2].behavior = 3;
+         c.arrays.values.items[2].behavior = BehaviorId(3);
        }},
       {"entry 0 of 'performs' does not follow from the other arrays",
        [](auto& c) { std::swap(c.arrays.performs.items[0], c.arrays.performs.items[1]); }},
       {"behavior 0 performs task 0 twice",
        [](auto& c) {  // a1 performs A twice, and a2 what a1 did: C
-         c.arrays.values.items[1].behavior = 0;
-         c.arrays.values.items[3].behavior = 1;
-         c.arrays.performs.items[1] = 1;
-         c.arrays.performs.items[2] = 3;
+         c.arrays.values.items[1].behavior = BehaviorId(0);
+         c.arrays.values.items[3].behavior = BehaviorId(1);
+         c.arrays.performs.items[1] = ValueId(1);
+         c.arrays.performs.items[2] = ValueId(3);
        }},
   });
 }
@@ -431,7 +433,7 @@ TEST(Verify, RefusesRequirements) {
       // a2 requires the task that it performs.
       {"the requirements are cyclic",
        [](auto& c) {
-         c.arrays.requirements.items[1].task = 0;
+         c.arrays.requirements.items[1].task = TaskId(0);
          c.arrays.masks.push_back(0);
        }},
   });
@@ -440,7 +442,7 @@ TEST(Verify, RefusesRequirements) {
 TEST(Verify, RefusesArcs) {
   expect_faults({
       {"entry 0 of 'arcs' does not follow from the other arrays",
-       [](auto& c) { c.arrays.arcs.items[0].source = 1; }},
+       [](auto& c) { c.arrays.arcs.items[0].source = TaskId(1); }},
       {"entry 3 of 'arcs' does not follow from the other arrays",
        [](auto& c) {  // in another order
          std::swap(c.arrays.arcs.items[3].target, c.arrays.arcs.items[4].target);
@@ -461,7 +463,7 @@ TEST(Verify, RefusesArcs) {
 TEST(Verify, RefusesLevelsAndOrder) {
   expect_faults({
       {"entry 0 of 'topological_order' does not follow from the other arrays",
-       [](auto& c) { c.arrays.topological_order[0] = 10; }},
+       [](auto& c) { c.arrays.topological_order[0] = TaskId(10); }},
       {"entry 3 of 'topological_order' does not follow from the other arrays",
        [](auto& c) { std::swap(c.arrays.topological_order[3], c.arrays.topological_order[4]); }},
       {"entry 0 of 'topological_order' does not follow from the other arrays",
@@ -476,19 +478,22 @@ TEST(Verify, RefusesCliques) {
       {"clique 0 has 1 tasks, expected at least 2", [](auto& c) { c.arrays.cliques.begin[1] = 1; }},
       {"clique 0 has 0 tasks, expected at least 2", [](auto& c) { c.arrays.cliques.begin[1] = 0; }},
       {"clique 2 has 0 tasks, expected at least 2", [](auto& c) { c.arrays.cliques.begin[2] = 6; }},
-      {"the tasks of clique 2 do not ascend", [](auto& c) { c.arrays.cliques.items[4] = 10; }},
+      {"the tasks of clique 2 do not ascend",
+       [](auto& c) { c.arrays.cliques.items[4] = TaskId(10); }},
       {"the tasks of clique 0 do not ascend",
        [](auto& c) { std::swap(c.arrays.cliques.items[0], c.arrays.cliques.items[1]); }},
-      {"the tasks of clique 0 do not ascend", [](auto& c) { c.arrays.cliques.items[1] = 0; }},
+      {"the tasks of clique 0 do not ascend",
+       [](auto& c) { c.arrays.cliques.items[1] = TaskId(0); }},
       {"clique 2 has task 4294967295 of 10", [](auto& c) { c.arrays.cliques.items[5] = none; }},
       {"cliques 0 and 1 are not in order",
        [](auto& c) {  // the same twice
-         c.arrays.cliques.items[2] = 0;
-         c.arrays.cliques.items[3] = 1;
+         c.arrays.cliques.items[2] = TaskId(0);
+         c.arrays.cliques.items[3] = TaskId(1);
        }},
       {"cliques 0 and 1 are not in order",
        [](auto& c) {
-         c.arrays.cliques.items = {1, 3, 0, 1, 8, 9};
+         const std::array tasks{1, 3, 0, 1, 8, 9};
+         c.arrays.cliques.items = std::vector<TaskId>(tasks.begin(), tasks.end());
          c.arrays.task_cliques.items = {1, 0, 1, 0, 2, 2};
        }},
       {"entry 1 of 'task_cliques' does not follow from the other arrays",
@@ -532,14 +537,18 @@ TEST(Verify, RefusesSituationVariables) {
   });
   const CompiledCatalog catalog = rich_catalog();
   const std::uint32_t last_variable = catalog.fitting_values.back().variable;
-  const std::pair<std::uint32_t FittingValue::*, std::size_t> counts[] = {
-      {&FittingValue::behavior, catalog.behaviors.size()},
-      {&FittingValue::variable, catalog.variables.size()},
-      {&FittingValue::value, catalog.variables[last_variable].value_count}};
-  for (const auto& [part, count] : counts) {
-    for (const std::uint32_t number : {static_cast<std::uint32_t>(count), none}) {
+  using Change = void (*)(FittingValue&, std::uint32_t);
+  const std::pair<Change, std::size_t> counts[] = {
+      {[](FittingValue& of, std::uint32_t number) { of.behavior = BehaviorId(number); },
+       catalog.behaviors.size()},
+      {[](FittingValue& of, std::uint32_t number) { of.variable = number; },
+       catalog.variables.size()},
+      {[](FittingValue& of, std::uint32_t number) { of.value = number; },
+       catalog.variables[last_variable].value_count}};
+  for (const auto& [change, count] : counts) {
+    for (const std::uint32_t number : {static_cast<std::uint32_t>(count), std::uint32_t{none}}) {
       EditableCatalog edited(rich_catalog());
-      edited.arrays.fitting_values.back().*part = number;
+      change(edited.arrays.fitting_values.back(), number);
       EXPECT_NE(fault_of(edited.catalog()).find("but there is no such behavior"),
                 std::string::npos);
     }
@@ -552,7 +561,7 @@ TEST(Verify, RefusesTwoGroupsInOne) {
   GrowingCatalog& arrays = edited.arrays;
   arrays.group_tasks.erase(arrays.group_tasks.begin() + 3);
   arrays.group_behaviors.erase(arrays.group_behaviors.begin() + 3);
-  for (TaskId task = 7; task < 10; ++task) arrays.tasks[task].group = 2;
+  for (TaskId task(7); task < 10; ++task) arrays.tasks[task].group = GroupId(2);
   EXPECT_EQ(fault_of(edited.catalog()), "'group_tasks' has 4 entries, expected 5");
 }
 

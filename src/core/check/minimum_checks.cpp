@@ -16,8 +16,8 @@ class RedundantMinimumCheck {
   explicit RedundantMinimumCheck(ProofContext& proof) : proof_(proof), catalog_(proof.compiled()) {}
 
   void check() {
-    for (TaskId task = 0; task < catalog_.tasks.size(); ++task) check_task(task);
-    for (BehaviorId id = 0; id < catalog_.behaviors.size(); ++id) check_behavior(id);
+    for (TaskId task(0); task < catalog_.tasks.size(); ++task) check_task(task);
+    for (BehaviorId id(0); id < catalog_.behaviors.size(); ++id) check_behavior(id);
   }
 
  private:

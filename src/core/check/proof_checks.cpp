@@ -29,7 +29,7 @@ class DeadCheck {
       : proof_(proof),
         catalog_(proof.compiled()),
         is_explained_below_(catalog_.values.items.size()) {
-    for (TaskId task = 0; task < catalog_.tasks.size(); ++task) {
+    for (TaskId task(0); task < catalog_.tasks.size(); ++task) {
       is_dead_.push_back(proof.liveness().of_task(task) == Liveness::State::dead);
     }
   }
@@ -48,7 +48,7 @@ class DeadCheck {
  private:
   void check_task(TaskId task) {
     if (proof_.is_explained_task(task)) return;
-    for (ValueId value = catalog_.values.begin[task]; value < catalog_.values.begin[task + 1];
+    for (ValueId value(catalog_.values.begin[task]); value < catalog_.values.begin[task + 1];
          ++value) {
       if (requires_only_dead_tasks(value)) return;
     }
@@ -248,8 +248,8 @@ class MinimumCheck {
   explicit MinimumCheck(ProofContext& proof) : proof_(proof), catalog_(proof.compiled()) {}
 
   void check() {
-    for (TaskId task = 0; task < catalog_.tasks.size(); ++task) check_task(task);
-    for (BehaviorId id = 0; id < catalog_.behaviors.size(); ++id) check_behavior(id);
+    for (TaskId task(0); task < catalog_.tasks.size(); ++task) check_task(task);
+    for (BehaviorId id(0); id < catalog_.behaviors.size(); ++id) check_behavior(id);
   }
 
  private:
@@ -324,7 +324,7 @@ class OnRequestCheck {
   explicit OnRequestCheck(ProofContext& proof) : proof_(proof), catalog_(proof.compiled()) {}
 
   void check() {
-    for (BehaviorId id = 0; id < catalog_.behaviors.size(); ++id) check_behavior(id);
+    for (BehaviorId id(0); id < catalog_.behaviors.size(); ++id) check_behavior(id);
   }
 
  private:
@@ -400,7 +400,7 @@ class RedundancyCheck {
   explicit RedundancyCheck(ProofContext& proof) : proof_(proof), catalog_(proof.compiled()) {}
 
   void check() {
-    for (BehaviorId id = 0; id < catalog_.behaviors.size(); ++id) check_behavior(id);
+    for (BehaviorId id(0); id < catalog_.behaviors.size(); ++id) check_behavior(id);
     report_undecided();
   }
 

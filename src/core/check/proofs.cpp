@@ -62,7 +62,7 @@ AssignmentSearch::AssignmentSearch(CompiledCatalog catalog, std::uint64_t max_no
       domains_(catalog_.words.back(), 0),
       effort_left_(most_effort_of_search) {
   catalog_.tasks = tasks_;
-  for (ValueId value = 0; value < catalog_.values.items.size(); ++value) {
+  for (ValueId value(0); value < catalog_.values.items.size(); ++value) {
     const Bit bit = bit_of(value);
     domains_[bit.word] |= bit.mask;
     const auto fitting = catalog_.fitting_values_of(catalog_.values.items[value].behavior);
@@ -126,7 +126,7 @@ AssignmentSearch::Best AssignmentSearch::best_performance(TaskId task, bool igno
 }
 
 /// The problem of a group with all values that are not ruled out.
-void AssignmentSearch::open_group(std::uint32_t group) {
+void AssignmentSearch::open_group(GroupId group) {
   const TaskId first = catalog_.group_tasks[group];
   const TaskId end = catalog_.group_tasks[group + 1];
   problem_.group = group;
@@ -156,8 +156,8 @@ void AssignmentSearch::close(TaskId task) {
 }
 
 void AssignmentSearch::close_misfits(std::span<const std::uint32_t> situation) {
-  const ValueId end = catalog_.values.begin[catalog_.group_tasks[problem_.group + 1]];
-  const ValueId begin = catalog_.values.begin[catalog_.group_tasks[problem_.group]];
+  const ValueId end(catalog_.values.begin[catalog_.group_tasks[problem_.group + 1]]);
+  const ValueId begin(catalog_.values.begin[catalog_.group_tasks[problem_.group]]);
   std::uint64_t effort = 0;
   const auto is_before = [](const Condition& one, ValueId value) { return one.value < value; };
   auto condition = std::lower_bound(conditions_.begin(), conditions_.end(), begin, is_before);
@@ -302,7 +302,7 @@ bool DirectAssignment::take(ValueId value) {
 ValueId DirectAssignment::choose(TaskId task, const std::vector<bool>& is_dead,
                                  const std::vector<bool>& is_live) const {
   ValueId chosen = none;
-  for (ValueId value = catalog_.values.begin[task]; value < catalog_.values.begin[task + 1];
+  for (ValueId value(catalog_.values.begin[task]); value < catalog_.values.begin[task + 1];
        ++value) {
     if (is_live[value]) return value;
     if (chosen == none && !is_dead[value]) chosen = value;
@@ -333,7 +333,7 @@ class Sum {
 
 std::vector<TaskId> tasks_by_level(const CompiledCatalog& catalog) {
   std::vector<TaskId> order(catalog.tasks.size());
-  std::iota(order.begin(), order.end(), 0);
+  std::iota(order.begin(), order.end(), TaskId(0));
   std::stable_sort(order.begin(), order.end(), [&catalog](TaskId a, TaskId b) {
     return catalog.tasks[a].level < catalog.tasks[b].level;
   });
@@ -346,7 +346,7 @@ Liveness::Liveness(AssignmentSearch& search)
       is_dead_(catalog_.values.items.size(), false) {
   DirectAssignment direct(catalog_);
   for (const TaskId task : tasks_by_level(catalog_)) {
-    for (ValueId value = catalog_.values.begin[task]; value < catalog_.values.begin[task + 1];
+    for (ValueId value(catalog_.values.begin[task]); value < catalog_.values.begin[task + 1];
          ++value) {
       if (!is_live_[value]) decide(value, direct, search);
     }
@@ -384,7 +384,7 @@ void Liveness::decide(ValueId value, DirectAssignment& direct, AssignmentSearch&
     search.rule_out(value);
   } else if (answer == Feasibility::yes) {
     const TaskId first = catalog_.group_tasks[catalog_.tasks[catalog_.task_of(value)].group];
-    for (std::uint32_t task = 0; task < solution_.size(); ++task) {
+    for (LocalTask task(0); task < solution_.size(); ++task) {
       if (solution_[task] != none) {
         is_live_[catalog_.values.begin[first + task] + solution_[task]] = true;
       }
@@ -400,7 +400,7 @@ Liveness::State Liveness::of_behavior(BehaviorId behavior) const {
 
 Liveness::State Liveness::of_task(TaskId task) const {
   Sum sum;
-  for (ValueId value = catalog_.values.begin[task]; value < catalog_.values.begin[task + 1];
+  for (ValueId value(catalog_.values.begin[task]); value < catalog_.values.begin[task + 1];
        ++value) {
     sum.add(of_value(value));
   }
@@ -428,7 +428,7 @@ ProofContext::ProofContext(const Catalog& catalog, AssignmentSearch& search,
 
 ConflictSearch ProofContext::relaxed(const Goal& goal) const {
   const Demand::Kind kind = goal.value_index == none ? Demand::Kind::run : Demand::Kind::has;
-  const std::uint32_t group = compiled().tasks[goal.task].group;
+  const GroupId group = compiled().tasks[goal.task].group;
   return {compiled(), group, nothing_present_, {{kind, goal.task, goal.value_index}}};
 }
 

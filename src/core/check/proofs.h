@@ -101,12 +101,12 @@ class AssignmentSearch {
 
   /// The values of variables in which the behavior of a value fits.
   struct Condition {
-    ValueId value = 0;
+    ValueId value;
     std::span<const FittingValue> fitting;
   };
 
   [[nodiscard]] Bit bit_of(ValueId value) const;
-  void open_group(std::uint32_t group);
+  void open_group(GroupId group);
   [[nodiscard]] std::uint32_t first_word() const;
   void allow(ValueId value);
   void must_run(TaskId task);

@@ -75,7 +75,7 @@ class ConflictInSituations {
         nothing_present_(most_in_a_group(catalog.group_tasks), none),
         effort_left_(effort_left) {
     for (const Demand& demand : demands) {
-      const std::uint32_t group = catalog.tasks[demand.task].group;
+      const GroupId group = catalog.tasks[demand.task].group;
       auto part = std::find_if(parts_.begin(), parts_.end(),
                                [group](const Part& one) { return one.group == group; });
       if (part == parts_.end()) part = parts_.insert(part, {group, {}, nullptr});
@@ -105,7 +105,7 @@ class ConflictInSituations {
  private:
   /// The demands on one group of the catalog.
   struct Part {
-    std::uint32_t group = 0;
+    GroupId group;
     Demands demands;
     std::unique_ptr<ConflictSearch> problem;
   };
@@ -153,8 +153,8 @@ class ConflictInSituations {
     std::vector<std::size_t> places;
     for (std::size_t place = 0; place < reasons.size(); ++place) {
       const Reason& reason = reasons[place];
-      const std::uint32_t group = reason.behavior != none ? catalog_.group_of(reason.behavior)
-                                                          : catalog_.tasks[reason.task].group;
+      const GroupId group = reason.behavior != none ? catalog_.group_of(reason.behavior)
+                                                    : catalog_.tasks[reason.task].group;
       if (group != part.group) continue;
       if (reason.kind == Reason::Kind::situation &&
           is_met(catalog_, reason, values[reason.variable])) {
@@ -322,7 +322,7 @@ Feasibility TogetherSearch::can_run(TaskId task) {
 }
 
 Feasibility TogetherSearch::decide_by_constraints(TaskId a, TaskId b) {
-  const std::uint32_t group = catalog_.tasks[a].group;
+  const GroupId group = catalog_.tasks[a].group;
   if (group != catalog_.tasks[b].group) {
     const bool is_certain = liveness_.of_task(a) == Liveness::State::live &&
                             liveness_.of_task(b) == Liveness::State::live;
@@ -384,7 +384,7 @@ Feasibility TogetherSearch::find(TaskId a, TaskId b, std::span<const std::uint32
 /// All tasks of a solution run together, not only those that were asked for.
 void TogetherSearch::note_running(TaskId first_of_group) {
   std::vector<TaskId> running;
-  for (std::uint32_t task = 0; task < solution_.size(); ++task) {
+  for (LocalTask task(0); task < solution_.size(); ++task) {
     if (solution_[task] != none) running.push_back(first_of_group + task);
   }
   for (std::size_t a = 0; a < running.size(); ++a) {
@@ -410,7 +410,7 @@ Feasibility TogetherSearch::solve(ConflictSearch& problem, std::span<const Reaso
 }
 
 std::vector<Reason> TogetherSearch::find_reasons(TaskId a, TaskId b) {
-  const std::uint32_t group = catalog_.tasks[a].group;
+  const GroupId group = catalog_.tasks[a].group;
   if (group != catalog_.tasks[b].group) return {};
   RelevantTasks relevant(catalog_, group);
   relevant.add(a);

@@ -39,8 +39,8 @@ enum class Together : std::uint8_t {
 
 /// Two tasks, and whether they can run at the same time.
 struct TaskPair {
-  TaskId first = 0;  ///< the earlier one in the catalog
-  TaskId second = 0;
+  TaskId first;  ///< the earlier one in the catalog
+  TaskId second;
   Together together = Together::possible;
   /// Why not: of two tasks in a list this exclusion; otherwise a minimal set of constraints, in the
   /// order of the chain that they form, or nothing if it takes too long to find. A condition of a

@@ -150,7 +150,7 @@ class BlockedReactiveCheck {
 
   void check_task(TaskId reactive) {
     std::vector<TaskId> blocking;
-    const std::uint32_t group = catalog_.tasks[reactive].group;
+    const GroupId group = catalog_.tasks[reactive].group;
     for (TaskId other = catalog_.group_tasks[group]; other < catalog_.group_tasks[group + 1];
          ++other) {
       if (catalog_.tasks[other].start_on_request == 0 || !is_of_interest(other)) continue;

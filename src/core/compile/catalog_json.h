@@ -30,30 +30,32 @@ template <typename Context>
   }
 }
 
-/// A name in the catalog. `Names` says of what: it finds the name of an id, and the id of a name.
+/// A name in the catalog. `Names` says of what: it finds the name of a number, and the number of a
+/// name.
 template <typename Names>
 struct Name {
-  [[nodiscard]] static bool has(std::uint32_t id) { return id != none; }
-  void write(JsonWriter& json, std::uint32_t id, const auto& context) const {
+  using Number = typename Names::Number;
+
+  [[nodiscard]] static bool has(Number id) { return id != none; }
+  void write(JsonWriter& json, Number id, const auto& context) const {
     json.put(text(id, context));
   }
   void put_schema(JsonWriter& json, Definitions& definitions) const {
     json::text.put_schema(json, definitions);
   }
-  void read(const auto& json, std::uint32_t& id, const auto& context) const {
+  void read(const auto& json, Number& id, const auto& context) const {
     id = find(json, json.text(), context);
   }
   /// As the name of a member.
-  [[nodiscard]] std::string_view text(std::uint32_t id, const auto& context) const {
+  [[nodiscard]] std::string_view text(Number id, const auto& context) const {
     return Names::name(catalog_in(context), id);
   }
-  void read_name(const auto& json, std::uint32_t& id, const auto& context) const {
+  void read_name(const auto& json, Number& id, const auto& context) const {
     id = find(json, json.name(), context);
   }
 
  private:
-  [[nodiscard]] static std::uint32_t find(const auto& json, std::string_view name,
-                                          const auto& context) {
+  [[nodiscard]] static Number find(const auto& json, std::string_view name, const auto& context) {
     const auto id = Names::find(catalog_in(context), name);
     if (!id) json.refuse_word(Names::what, name);
     return *id;
@@ -61,6 +63,7 @@ struct Name {
 };
 
 struct TaskNames {
+  using Number = TaskId;
   static constexpr std::string_view what = "task";
   static std::string_view name(const CompiledCatalog& catalog, TaskId task) {
     return catalog.name_of_task(task);
@@ -73,6 +76,7 @@ struct TaskNames {
 inline constexpr Name<TaskNames> task;
 
 struct BehaviorNames {
+  using Number = BehaviorId;
   static constexpr std::string_view what = "behavior";
   static std::string_view name(const CompiledCatalog& catalog, BehaviorId behavior) {
     return catalog.name_of_behavior(behavior);
@@ -88,6 +92,7 @@ inline constexpr auto tasks = list(task).unique();
 inline constexpr auto behaviors = list(behavior).unique();
 
 struct VariableNames {
+  using Number = std::uint32_t;
   static std::string_view name(const CompiledCatalog& catalog, std::uint32_t variable) {
     return catalog.name_of_variable(variable);
   }

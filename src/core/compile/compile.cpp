@@ -161,7 +161,7 @@ class Compiler {
   /// In rank order.
   void add_values() {
     std::vector<std::vector<Value>> rows(task_count());
-    for (BehaviorId id = 0; id < behavior_count(); ++id) {
+    for (BehaviorId id(0); id < behavior_count(); ++id) {
       for (const Performance& performance : by_id_[id]->performs) {
         Value& value = rows[out_.task_ids[performance.task]].emplace_back();
         value.behavior = id;
@@ -213,7 +213,7 @@ class Compiler {
       for (const std::string& text : from.values) out_.variable_values.push_back(add_text(text));
       out_.variables.push_back(to);
     }
-    for (BehaviorId id = 0; id < behavior_count(); ++id) {
+    for (BehaviorId id(0); id < behavior_count(); ++id) {
       for (const Condition& condition : by_id_[id]->situation) {
         for (const std::uint32_t value : condition.values) {
           out_.fitting_values.push_back({id, condition.variable, value});
@@ -253,7 +253,7 @@ class PairCounter {
 
   /// In one group. Tasks that are in the same cliques exclude the same tasks (and each other), so
   /// that these are counted once for all of them.
-  std::uint64_t count(std::uint32_t group) {
+  std::uint64_t count(GroupId group) {
     tasks_.resize(catalog_.group_tasks[group + 1] - catalog_.group_tasks[group]);
     std::iota(tasks_.begin(), tasks_.end(), catalog_.group_tasks[group]);
     std::sort(tasks_.begin(), tasks_.end(), [this](TaskId a, TaskId b) {
@@ -309,7 +309,7 @@ CatalogSummary summarize(const CompiledCatalog& catalog) {
   CatalogSummary summary;
   PairCounter pairs(catalog);
   std::vector<std::uint32_t> all_sizes;
-  for (std::uint32_t group = 0; group < catalog.group_count(); ++group) {
+  for (GroupId group(0); group < catalog.group_count(); ++group) {
     CatalogNumbers& numbers = summary.groups.emplace_back();
     const TaskId begin = catalog.group_tasks[group];
     const TaskId end = catalog.group_tasks[group + 1];

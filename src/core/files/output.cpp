@@ -111,7 +111,7 @@ void Progress::clear() {
   is_shown_ = false;
 }
 
-void GroupProgress::show(std::uint32_t group, std::uint64_t states) {
+void GroupProgress::show(GroupId group, std::uint64_t states) {
   if (group_ != group) progress_.begin(fmt::format("group {}", group));
   group_ = group;
   progress_.show(fmt::format(" ({})", quantity(states, "state")));

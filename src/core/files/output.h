@@ -109,7 +109,7 @@ class GroupProgress {
   GroupProgress(std::string what, std::size_t groups) : progress_(std::move(what), groups) {}
 
   /// How many states of this group have been visited. May be called often.
-  void show(std::uint32_t group, std::uint64_t states);
+  void show(GroupId group, std::uint64_t states);
 
   /// For what follows the exploration.
   [[nodiscard]] Progress& line() { return progress_; }

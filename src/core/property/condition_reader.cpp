@@ -22,7 +22,8 @@ using yaml::Node;
 /// What contradicts itself has no meaning.
 constexpr Standing of_contradiction{Severity::error, true};
 
-using Named = StateClaims::Named;
+using NamedTask = StateClaims::Task;
+using NamedBehavior = StateClaims::Behavior;
 
 /// The place of a key in a mapping that has it.
 const Range& range_of(const Node& mapping, std::string_view key) {
@@ -113,8 +114,8 @@ class ConditionReader {
     }
   }
 
-  std::vector<Named> read_behaviors(const Node& node, std::string_view what) {
-    std::vector<Named> behaviors;
+  std::vector<NamedBehavior> read_behaviors(const Node& node, std::string_view what) {
+    std::vector<NamedBehavior> behaviors;
     if (yaml::read_list(node, what, "a list of behaviors", reporter_) == nullptr) return behaviors;
     ListedNames listed;
     for (const Node* item : node.items) {
@@ -175,7 +176,7 @@ class ConditionReader {
     for (const Requested& requested : requested_) {
       const TaskId task = requested.task.id;
       const auto stop = std::find_if(stopped_.begin(), stopped_.end(),
-                                     [task](const Named& entry) { return entry.id == task; });
+                                     [task](const NamedTask& entry) { return entry.id == task; });
       if (stop == stopped_.end()) continue;
       refuse(requested.task.range,
              "task " + quote(catalog_.name_of_task(task)) +
@@ -189,7 +190,7 @@ class ConditionReader {
       if (own.available) continue;
       const auto named =
           std::find_if(available_.begin(), available_.end(),
-                       [&own](const Named& entry) { return entry.id == own.behavior; });
+                       [&own](const NamedBehavior& entry) { return entry.id == own.behavior; });
       if (named == available_.end()) continue;
       const std::string_view name = catalog_.name_of_behavior(own.behavior);
       refuse(named->range, "behavior " + quote(name) + " is also expected to be unavailable",
@@ -208,18 +209,18 @@ class ConditionReader {
   }
 
   void check_fitting() {
-    std::vector<Named> fitting = available_;
+    std::vector<NamedBehavior> fitting = available_;
     fitting.insert(fitting.end(), active_.begin(), active_.end());
     for (const RunningEntry& entry : running_) {
       if (!entry.behavior) continue;
       fitting.push_back({catalog_.behavior_ids[*entry.behavior], entry.behavior_range});
     }
-    for (const Named& behavior : fitting) {
+    for (const NamedBehavior& behavior : fitting) {
       for (const VariableValue value : situation_.variables) check_fits(behavior, value);
     }
   }
 
-  void check_fits(const Named& behavior, VariableValue value) {
+  void check_fits(const NamedBehavior& behavior, VariableValue value) {
     bool is_named = false;
     for (const FittingValue& fitting : catalog_.fitting_values_of(behavior.id)) {
       if (fitting.variable != value.variable) continue;
@@ -280,7 +281,7 @@ class ConditionReader {
   }
 
   struct Requested {
-    Named task;
+    NamedTask task;
     std::int32_t priority = 0;
   };
 
@@ -307,10 +308,10 @@ class ConditionReader {
       condition.running.push_back({catalog_.task_ids[entry.task],
                                    entry.behavior ? catalog_.behavior_ids[*entry.behavior] : none});
     }
-    const auto ids = [](const std::vector<Named>& named) {
-      std::vector<std::uint32_t> all;
+    const auto ids = []<typename Number>(const std::vector<StateClaims::Named<Number>>& named) {
+      std::vector<Number> all;
       all.reserve(named.size());
-      for (const Named& entry : named) all.push_back(entry.id);
+      for (const auto& entry : named) all.push_back(entry.id);
       return all;
     };
     condition.stopped = ids(stopped_);
@@ -329,10 +330,10 @@ class ConditionReader {
   const CompiledCatalog& catalog_;
   Reporter& reporter_;
   std::vector<RunningEntry> running_;
-  std::vector<Named> stopped_;
-  std::vector<Named> active_;
-  std::vector<Named> faulty_;
-  std::vector<Named> available_;
+  std::vector<NamedTask> stopped_;
+  std::vector<NamedBehavior> active_;
+  std::vector<NamedBehavior> faulty_;
+  std::vector<NamedBehavior> available_;
   std::vector<Requested> requested_;
   SituationPart situation_;
   const Node* situation_node_ = nullptr;

@@ -20,7 +20,7 @@ namespace cbc {
 /// Values of situation variables, and answers of check_situation (own(b)); all of them hold.
 struct SituationPart {
   struct Own {
-    BehaviorId behavior = 0;
+    BehaviorId behavior;
     bool available = true;
   };
   std::vector<VariableValue> variables;
@@ -31,7 +31,7 @@ struct SituationPart {
 /// order.
 struct Assumptions {
   struct Start {
-    TaskId task = 0;
+    TaskId task;
     std::vector<std::int32_t> priorities;  ///< each at least 1, distinct, in the order of the file
   };
   std::vector<Start> start;  ///< distinct tasks
@@ -62,11 +62,11 @@ struct StatedAssumptions {
 /// What a state satisfies: all parts together.
 struct StateCondition {
   struct Running {
-    TaskId task = 0;
+    TaskId task;
     BehaviorId behavior = none;  ///< none: any
   };
   struct Requested {
-    TaskId task = 0;
+    TaskId task;
     std::int32_t priority = 1;  ///< the least priority of the request
   };
   std::vector<Running> running;

@@ -45,7 +45,7 @@ struct Figures {
 
 /// `state`: before the event or after it; what runs outside the group counts. Of objectives that
 /// are a number.
-Figures figures_of(const CompiledCatalog& catalog, std::uint32_t group, const State& state,
+Figures figures_of(const CompiledCatalog& catalog, GroupId group, const State& state,
                    const Configuration& chosen, const WhyNot& why_not) {
   const Configuration& other = *why_not.alternative;
   const auto served = [](const ObjectiveValues& objective) {
@@ -75,7 +75,7 @@ std::string describe_loss(const CompiledCatalog& catalog, const EventRecord& rec
                           const WhyNot& why_not, const State& state) {
   const Configuration& chosen = record.explanation.chosen;
   const Difference& difference = why_not.difference;
-  const std::uint32_t group = record.search->group;
+  const GroupId group = record.search->group;
   const Figures figures = figures_of(catalog, group, state, chosen, why_not);
   switch (difference.criterion) {
     case Criterion::requests:
@@ -86,7 +86,7 @@ std::string describe_loss(const CompiledCatalog& catalog, const EventRecord& rec
                          task_name(catalog, difference.task),
                          task_name(catalog, difference.other_task));
     case Criterion::canonical: {
-      const std::uint32_t task = difference.task - catalog.group_tasks[group];
+      const LocalTask task = difference.task - catalog.group_tasks[group];
       return fmt::format(
           "all objectives would be equal; for {}, {} comes before {} in the canonical order",
           task_name(catalog, difference.task),
@@ -287,7 +287,7 @@ Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record
 std::string describe_alternative(const CompiledCatalog& catalog, const EventRecord& record,
                                  std::size_t place, const State& state) {
   const std::vector<Configuration>& list = record.explanation.alternatives;
-  const std::uint32_t group = record.search->group;
+  const GroupId group = record.search->group;
   const TaskId first = catalog.group_tasks[group];
   const Configuration& configuration = list[place];
   const ObjectiveValues& objective = configuration.objective;
@@ -297,7 +297,7 @@ std::string describe_alternative(const CompiledCatalog& catalog, const EventReco
       shorten_number(exact_suitability(catalog, state, group, configuration.assignment)),
       supporting_text(objective), objective.changes);
   bool is_first = true;
-  for (std::uint32_t task = 0; task < configuration.assignment.size(); ++task) {
+  for (LocalTask task(0); task < configuration.assignment.size(); ++task) {
     const std::uint32_t value = configuration.assignment[task];
     if (value == (place == 0 ? none : list.front().assignment[task])) continue;
     text += fmt::format(
@@ -312,11 +312,11 @@ std::string describe_alternative(const CompiledCatalog& catalog, const EventReco
   return is_first ? text + " nothing runs" : text;
 }
 
-std::vector<TaskId> differing_tasks(const CompiledCatalog& catalog, std::uint32_t group,
+std::vector<TaskId> differing_tasks(const CompiledCatalog& catalog, GroupId group,
                                     const Assignment& one, const Assignment& other) {
   std::vector<TaskId> tasks;
   const TaskId first = catalog.group_tasks[group];
-  for (std::uint32_t task = 0; task < one.size(); ++task) {
+  for (LocalTask task(0); task < one.size(); ++task) {
     if (one[task] != other[task]) tasks.push_back(first + task);
   }
   std::sort(tasks.begin(), tasks.end(), [&catalog](TaskId a, TaskId b) {

@@ -41,9 +41,8 @@ struct Sentences {
                                                const State& state);
 
 /// The tasks of a group that have different values in two configurations, in catalog order.
-[[nodiscard]] std::vector<TaskId> differing_tasks(const CompiledCatalog& catalog,
-                                                  std::uint32_t group, const Assignment& one,
-                                                  const Assignment& other);
+[[nodiscard]] std::vector<TaskId> differing_tasks(const CompiledCatalog& catalog, GroupId group,
+                                                  const Assignment& one, const Assignment& other);
 
 /// Why tasks are not as expected: the event that decided, the objective with both values, and what
 /// differs; or what prevents it.

@@ -51,7 +51,7 @@ class Product {
   std::size_t decimals_ = 0;  ///< the denominator is 10 to this power
 };
 
-void multiply_elsewhere(const CompiledCatalog& catalog, const State& state, std::uint32_t group,
+void multiply_elsewhere(const CompiledCatalog& catalog, const State& state, GroupId group,
                         Product& product) {
   for (const std::uint32_t index : state.running()) {
     const TaskId task = catalog.task_ids[index];
@@ -60,10 +60,10 @@ void multiply_elsewhere(const CompiledCatalog& catalog, const State& state, std:
   }
 }
 
-void multiply_group(const CompiledCatalog& catalog, std::uint32_t group, const Assignment& places,
+void multiply_group(const CompiledCatalog& catalog, GroupId group, const Assignment& places,
                     Product& product) {
   const TaskId first = catalog.group_tasks[group];
-  for (std::uint32_t task = 0; task < places.size(); ++task) {
+  for (LocalTask task(0); task < places.size(); ++task) {
     if (places[task] == none) continue;
     product.multiply(catalog.values[first + task][places[task]].suitability);
   }
@@ -77,7 +77,7 @@ double total_suitability(const CompiledCatalog& catalog, const State& state) {
   return product.nearest_double();
 }
 
-double total_suitability(const CompiledCatalog& catalog, const State& state, std::uint32_t group,
+double total_suitability(const CompiledCatalog& catalog, const State& state, GroupId group,
                          const Assignment& places) {
   Product product;
   multiply_elsewhere(catalog, state, group, product);
@@ -85,8 +85,8 @@ double total_suitability(const CompiledCatalog& catalog, const State& state, std
   return product.nearest_double();
 }
 
-std::string exact_suitability(const CompiledCatalog& catalog, const State& state,
-                              std::uint32_t group, const Assignment& places) {
+std::string exact_suitability(const CompiledCatalog& catalog, const State& state, GroupId group,
+                              const Assignment& places) {
   Product product;
   multiply_elsewhere(catalog, state, group, product);
   if (product.is_zero()) product = {};
@@ -135,7 +135,7 @@ double idle_share(const ObjectiveValues& objective) {
 
 AnswerBound bound_of_answer(const CompiledCatalog& catalog, const EventRecord& record,
                             const State& state) {
-  const std::uint32_t group = record.search->group;
+  const GroupId group = record.search->group;
   const SearchBound& bound = record.search->result.bound;
   const Assignment nothing(catalog.group_tasks[group + 1] - catalog.group_tasks[group], none);
   const double elsewhere = total_suitability(catalog, state, group, nothing);

@@ -21,12 +21,12 @@ namespace cbc {
 
 /// The same, with another configuration of one group.
 [[nodiscard]] double total_suitability(const CompiledCatalog& catalog, const State& state,
-                                       std::uint32_t group, const Assignment& places);
+                                       GroupId group, const Assignment& places);
 
 /// The same, as an exact decimal number. If a suitability outside the group is 0, only the group
 /// counts, since the product could not tell its configurations apart.
 [[nodiscard]] std::string exact_suitability(const CompiledCatalog& catalog, const State& state,
-                                            std::uint32_t group, const Assignment& places);
+                                            GroupId group, const Assignment& places);
 
 /// The product of some suitabilities, in percent, with up to 4 decimals; the rest is cut off, so
 /// that a number below a limit does not look as if it reached it.

@@ -295,7 +295,7 @@ std::vector<std::pair<std::uint32_t, std::optional<Microseconds>>> queue_of(
     const CompiledCatalog& catalog, const State& state) {
   std::vector<std::pair<std::uint32_t, std::optional<Microseconds>>> queue;
   for (const auto& [time, index] : state.queue().entries()) queue.emplace_back(index, time);
-  for (TaskId task = 0; state.waiting_count() > 0 && task < catalog.tasks.size(); ++task) {
+  for (TaskId task(0); state.waiting_count() > 0 && task < catalog.tasks.size(); ++task) {
     const std::uint32_t index = catalog.tasks[task].catalog_index;
     if (state.is_waiting(task) && !state.queue().has(index)) {
       queue.emplace_back(index, std::nullopt);

@@ -13,22 +13,23 @@
 namespace cbc {
 namespace {
 
-using Named = StateClaims::Named;
+using NamedTask = StateClaims::Task;
+using NamedBehavior = StateClaims::Behavior;
 
 /// The claims by what they are about.
 class ClaimIndex {
  public:
   explicit ClaimIndex(const StateClaims& claims)
       : says_all_active_(claims.only_active.has_value()) {
-    for (const Named& task : claims.stopped) stopped_.try_emplace(task.id, &task);
-    for (const Named& behavior : claims.active) active_.insert(behavior.id);
+    for (const NamedTask& task : claims.stopped) stopped_.try_emplace(task.id, &task);
+    for (const NamedBehavior& behavior : claims.active) active_.insert(behavior.id);
     for (const StateClaims::Running& entry : claims.running) {
       if (entry.behavior) chosen_.insert(entry.task.id);
     }
   }
 
   /// The claim that a task is stopped; null if there is none.
-  [[nodiscard]] const Named* stopped(TaskId task) const {
+  [[nodiscard]] const NamedTask* stopped(TaskId task) const {
     const auto found = stopped_.find(task);
     return found == stopped_.end() ? nullptr : found->second;
   }
@@ -41,7 +42,7 @@ class ClaimIndex {
 
  private:
   bool says_all_active_;
-  std::unordered_map<TaskId, const Named*> stopped_;
+  std::unordered_map<TaskId, const NamedTask*> stopped_;
   std::unordered_set<BehaviorId> active_;
   std::unordered_set<TaskId> chosen_;
 };
@@ -81,13 +82,13 @@ class Placement : private Examination {
     for (const StateClaims::Running& entry : claims_.running) {
       if (entry.behavior) taken_[entry.task.id].push_back(*entry.behavior);
     }
-    std::vector<const Named*> waiting;
-    for (const Named& behavior : claims_.active) {
+    std::vector<const NamedBehavior*> waiting;
+    for (const NamedBehavior& behavior : claims_.active) {
       if (open_.try_emplace(behavior.id, &behavior).second) waiting.push_back(&behavior);
     }
     std::reverse(waiting.begin(), waiting.end());
     while (!waiting.empty()) {
-      const Named& behavior = *waiting.back();
+      const NamedBehavior& behavior = *waiting.back();
       waiting.pop_back();
       if (!open_.contains(behavior.id)) continue;
       const std::optional<TaskId> task = place(behavior);
@@ -104,16 +105,16 @@ class Placement : private Examination {
  private:
   /// If it is settled which task the behavior performs, or that there is none, the behavior is no
   /// longer open. Returns the task.
-  std::optional<TaskId> place(const Named& behavior) {
+  std::optional<TaskId> place(const NamedBehavior& behavior) {
     std::vector<TaskId> left;
     std::vector<Note> notes;
     for (const ValueId value : catalog_.performs[behavior.id]) {
       const TaskId task = catalog_.task_of(value);
       const std::string name = quote(catalog_.name_of_task(task));
-      if (const Named* other = other_behavior(task, behavior.id)) {
+      if (const NamedBehavior* other = other_behavior(task, behavior.id)) {
         notes.push_back(
             reporter_.note(other->range, name + " is expected to run with another behavior here"));
-      } else if (const Named* stop = index_.stopped(task)) {
+      } else if (const NamedTask* stop = index_.stopped(task)) {
         notes.push_back(reporter_.note(stop->range, name + " is expected to be stopped here"));
       } else {
         left.push_back(task);
@@ -133,12 +134,12 @@ class Placement : private Examination {
   }
 
   /// Another behavior that has taken the task; null if there is none.
-  [[nodiscard]] const Named* other_behavior(TaskId task, BehaviorId behavior) const {
+  [[nodiscard]] const NamedBehavior* other_behavior(TaskId task, BehaviorId behavior) const {
     const auto found = taken_.find(task);
     if (found == taken_.end()) return nullptr;
     const auto other =
         std::find_if(found->second.begin(), found->second.end(),
-                     [behavior](const Named& entry) { return entry.id != behavior; });
+                     [behavior](const NamedBehavior& entry) { return entry.id != behavior; });
     return other == found->second.end() ? nullptr : &*other;
   }
 
@@ -164,8 +165,8 @@ class Placement : private Examination {
     }
   }
 
-  std::unordered_map<TaskId, std::vector<Named>> taken_;
-  std::unordered_map<BehaviorId, const Named*> open_;  ///< active, with several tasks left
+  std::unordered_map<TaskId, std::vector<NamedBehavior>> taken_;
+  std::unordered_map<BehaviorId, const NamedBehavior*> open_;  ///< active, with several tasks left
 };
 
 /// Follows from each claim which tasks run if it holds.
@@ -178,7 +179,7 @@ class Consequences : private Examination {
     for (const StateClaims::Running& entry : claims_.running) {
       add({entry.task.id, entry.task.range, std::nullopt});
     }
-    for (const Named& active : claims_.active) {
+    for (const NamedBehavior& active : claims_.active) {
       const auto performed = catalog_.performs[active.id];
       if (performed.size() != 1) continue;
       add({catalog_.task_of(performed.front()), active.range, std::nullopt});
@@ -190,7 +191,8 @@ class Consequences : private Examination {
     for (const StateClaims::Running& entry : claims_.running) {
       if (entry.behavior) require({entry.behavior->id}, entry.behavior->range, std::nullopt);
     }
-    for (const Named& active : claims_.active) require({active.id}, active.range, std::nullopt);
+    for (const NamedBehavior& active : claims_.active)
+      require({active.id}, active.range, std::nullopt);
     // More are added on the way.
     for (std::size_t place = 0; place < running_.size(); ++place) {
       const Running& entry = running_[place];
@@ -271,7 +273,7 @@ class Consequences : private Examination {
     }
     running_.push_back(running);
     if (!running.link) return;
-    if (const Named* stop = index_.stopped(running.task)) {
+    if (const NamedTask* stop = index_.stopped(running.task)) {
       complain(running.range, describe_reason(running), {},
                {reporter_.note(stop->range, "expected to be stopped here")});
     } else if (!is_performed(index_, catalog_, running.task)) {

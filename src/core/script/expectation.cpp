@@ -249,7 +249,7 @@ class ExpectedGroups {
   void add_active(const std::vector<std::uint32_t>& behaviors) {
     std::vector<std::uint8_t> is_expected(catalog_.behaviors.size(), 0);
     for (const std::uint32_t index : behaviors) is_expected[catalog_.behavior_ids[index]] = 1;
-    for (BehaviorId behavior = 0; behavior < is_expected.size(); ++behavior) {
+    for (BehaviorId behavior(0); behavior < is_expected.size(); ++behavior) {
       if (is_expected[behavior] != 0) {
         add_active_behavior(behavior);
       } else {
@@ -302,7 +302,7 @@ class ExpectedGroups {
 
   const CompiledCatalog& catalog_;
   const State& state_;
-  std::map<std::uint32_t, Group> groups_;
+  std::map<GroupId, Group> groups_;
 };
 
 }  // namespace

@@ -22,18 +22,21 @@ namespace cbc {
 /// What is said of the values of tasks. Numbers are those of the compiled catalog.
 struct StateClaims {
   /// A task or a behavior, and where it is named.
+  template <typename Number>
   struct Named {
-    std::uint32_t id = 0;
+    Number id;
     Range range;
   };
+  using Task = Named<TaskId>;
+  using Behavior = Named<BehaviorId>;
   struct Running {
-    Named task;
-    std::optional<Named> behavior;  ///< empty: any
+    Task task;
+    std::optional<Behavior> behavior;  ///< empty: any
   };
 
   std::vector<Running> running;
-  std::vector<Named> stopped;  ///< tasks
-  std::vector<Named> active;   ///< behaviors
+  std::vector<Task> stopped;
+  std::vector<Behavior> active;
   /// Where it is said that no other behavior is active, if it is.
   std::optional<Range> only_active;
 };
@@ -88,7 +91,7 @@ void check_stopped(std::uint32_t task, const Range& range, const std::vector<Run
 
 /// What an expectation that does not hold demands of one group of tasks.
 struct ExpectedValues {
-  std::uint32_t group = 0;
+  GroupId group;
   std::vector<TaskId> tasks;  ///< those that are not as expected, in catalog order
   /// The expectation holds in the group if all demands of one of these hold. More than one where
   /// an active behavior may perform several tasks.

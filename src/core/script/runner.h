@@ -81,7 +81,7 @@ class SearchTotals {
 
 /// Why tasks of one group are not as expected.
 struct UnexpectedTasks {
-  std::uint32_t group = 0;
+  GroupId group;
   std::vector<TaskId> tasks;  ///< those that are not as expected, in catalog order
   WhyUnmet why_unmet;
 };

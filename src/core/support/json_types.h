@@ -16,6 +16,7 @@
 
 #include "cbc/units.h"
 #include "core/support/json.h"
+#include "runtime/base/id.h"
 
 // The types of JSON values, for descriptions (see json_description.h).
 //
@@ -119,6 +120,10 @@ struct Integer {
   void write(JsonWriter& json, Number value, const auto& /*context*/) const {
     static_assert(!std::same_as<Number, bool>);
     json.put(value);
+  }
+  template <typename Kind>
+  void write(JsonWriter& json, Id<Kind> id, const auto& /*context*/) const {
+    json.put(std::uint32_t{id});
   }
   void put_schema(JsonWriter& json, Definitions& /*definitions*/) const {
     json.write_members({{"type", "integer"}, {"minimum", least}});

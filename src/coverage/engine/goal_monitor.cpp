@@ -101,11 +101,11 @@ void GoalMonitor::on_decision(const EventRecord& record, const Circumstances& ci
 void GoalMonitor::note_values(const State& before, const Trigger& trigger,
                               const Assignment& solution) {
   const TaskId first = catalog_.group_tasks[trigger.group];
-  for (std::uint32_t place = 0; place < solution.size(); ++place) {
+  for (LocalTask place(0); place < solution.size(); ++place) {
     const BehaviorId behavior = before.behavior(first + place);
     if (behavior != none) was_active_[behavior] = 1;
   }
-  for (std::uint32_t place = 0; place < solution.size(); ++place) {
+  for (LocalTask place(0); place < solution.size(); ++place) {
     const TaskId task = first + place;
     const BehaviorId old_behavior = before.behavior(task);
     const BehaviorId behavior = behavior_in(catalog_, task, solution[place]);
@@ -125,7 +125,7 @@ void GoalMonitor::note_values(const State& before, const Trigger& trigger,
       note_stop(trigger, before, task);
     }
   }
-  for (std::uint32_t place = 0; place < solution.size(); ++place) {
+  for (LocalTask place(0); place < solution.size(); ++place) {
     const BehaviorId behavior = before.behavior(first + place);
     if (behavior != none) was_active_[behavior] = 0;
   }
@@ -154,7 +154,7 @@ void GoalMonitor::note_start(const EventRecord& record, const Circumstances& cir
     return;
   }
   const TaskId first = catalog_.group_tasks[trigger.group];
-  for (std::uint32_t place = 0; place < solution.size(); ++place) {
+  for (LocalTask place(0); place < solution.size(); ++place) {
     const Request* const request = circumstances.state.find_request(first + place);
     if (request == nullptr || solution[place] != none) continue;
     meet(request->priority < record.priority ? Kind::higher_displaced : Kind::equal_displaced,

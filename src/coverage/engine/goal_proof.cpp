@@ -32,7 +32,7 @@ std::vector<ValueId> timed_values(const CompiledCatalog& catalog, const Goal& go
     }
     return values;
   }
-  for (ValueId value = catalog.values.begin[goal.task]; value < catalog.values.begin[goal.task + 1];
+  for (ValueId value(catalog.values.begin[goal.task]); value < catalog.values.begin[goal.task + 1];
        ++value) {
     const BehaviorId behavior = catalog.values.items[value].behavior;
     if (catalog.behaviors[behavior].timeout == 0) values.push_back(value);
@@ -187,7 +187,7 @@ class ReasonFinder {
     if (!was_active(behavior)) return why_never_active(behavior);
     for (const ValueId value : catalog_.performs[behavior]) {
       const TaskId task = catalog_.task_of(value);
-      for (ValueId other = catalog_.values.begin[task]; other < catalog_.values.begin[task + 1];
+      for (ValueId other(catalog_.values.begin[task]); other < catalog_.values.begin[task + 1];
            ++other) {
         if (other == value || facts_.performed[other] == 0) continue;
         return fmt::format("when {} ends, no task goes on with another behavior",
@@ -359,10 +359,10 @@ class Returns {
 };
 
 /// The groups that a goal is about: of a variable those whose behaviors name it.
-std::vector<std::uint32_t> groups_of(const CompiledCatalog& catalog, const Goal& goal) {
+std::vector<GroupId> groups_of(const CompiledCatalog& catalog, const Goal& goal) {
   if (goal.task != none) return {catalog.tasks[goal.task].group};
   if (goal.behavior != none) return {catalog.group_of(goal.behavior)};
-  std::vector<std::uint32_t> groups;
+  std::vector<GroupId> groups;
   for (const FittingValue& fitting : catalog.fitting_values) {
     if (fitting.variable == goal.variable) groups.push_back(catalog.group_of(fitting.behavior));
   }
@@ -399,7 +399,7 @@ GoalProof prove_unreachable(const CompiledCatalog& catalog, std::span<const Goal
   proof.groups.resize(catalog.group_count());
   GoalMonitor monitor(catalog, goals, {});
   monitor.take_failures_for_timeouts();
-  for (std::uint32_t group = 0; group < catalog.group_count(); ++group) {
+  for (GroupId group(0); group < catalog.group_count(); ++group) {
     if (options.group.value_or(group) != group) continue;
     if (options.search.on_progress && !options.search.on_progress(group, 0)) break;
     Returns returns;
@@ -413,8 +413,8 @@ GoalProof prove_unreachable(const CompiledCatalog& catalog, std::span<const Goal
   proof.facts = monitor.facts();
   for (std::size_t number = 0; number < goals.size(); ++number) {
     const Goal& goal = goals[number];
-    const std::vector<std::uint32_t> groups = groups_of(catalog, goal);
-    const bool is_proven = std::all_of(groups.begin(), groups.end(), [&](std::uint32_t group) {
+    const std::vector<GroupId> groups = groups_of(catalog, goal);
+    const bool is_proven = std::all_of(groups.begin(), groups.end(), [&](GroupId group) {
       return proof.groups[group].is_complete;
     });
     const bool is_free = groups.empty() && may_have(assumptions, goal);

@@ -24,7 +24,7 @@ struct GoalProof {
 };
 
 struct GoalProofOptions {
-  std::optional<std::uint32_t> group;  ///< the only one to visit; empty: all
+  std::optional<GroupId> group;  ///< the only one to visit; empty: all
   GoalSearchOptions search;
 };
 

@@ -160,8 +160,7 @@ void StateReplay::on_event(const EventRecord& record) {
 class TimeoutRace {
  public:
   /// The catalog must outlive this object.
-  TimeoutRace(const CompiledCatalog& catalog, std::uint32_t group)
-      : catalog_(catalog), group_(group) {}
+  TimeoutRace(const CompiledCatalog& catalog, GroupId group) : catalog_(catalog), group_(group) {}
 
   /// Notes a move, which the replay has just made.
   void note(const StateReplay& replay, const Move& move);
@@ -172,7 +171,7 @@ class TimeoutRace {
 
  private:
   const CompiledCatalog& catalog_;
-  const std::uint32_t group_;
+  const GroupId group_;
   /// By value that ran and has a timeout: those that have always come first so far, ascending.
   std::map<ValueId, std::vector<ValueId>> sooner_;
   std::vector<ValueId> running_;  ///< after the move; kept for its memory
@@ -191,7 +190,7 @@ void TimeoutRace::note(const StateReplay& replay, const Move& move) {
   for (TaskId task = catalog_.group_tasks[group_]; task < catalog_.group_tasks[group_ + 1];
        ++task) {
     if (!state.is_running(task)) continue;
-    const ValueId value = catalog_.values.begin[task] + state.value_index(task);
+    const ValueId value(catalog_.values.begin[task] + state.value_index(task));
     if (timeout(value).first > 0) running_.push_back(value);
   }
   for (const ValueId value : running_) {
@@ -223,7 +222,7 @@ void TimeoutRace::tell(GoalMonitor& monitor) const {
 /// Makes each move of the search once more, and passes on what it did.
 class ReplayVisitor {
  public:
-  ReplayVisitor(const Model& model, std::uint32_t group, GoalMonitor& monitor,
+  ReplayVisitor(const Model& model, GroupId group, GoalMonitor& monitor,
                 const std::vector<std::uint8_t>* unwanted,
                 const std::function<void(const SeenMove&)>& on_move)
       : monitor_(monitor),
@@ -257,7 +256,7 @@ class ReplayVisitor {
 
 }  // namespace
 
-GoalSearchResult search_goals(const CompiledCatalog& catalog, std::uint32_t group,
+GoalSearchResult search_goals(const CompiledCatalog& catalog, GroupId group,
                               const Assumptions& assumptions, GoalMonitor& monitor,
                               const std::vector<std::uint8_t>* unwanted,
                               const GoalSearchOptions& options,
@@ -306,7 +305,7 @@ class GraphBuilder {
   }
 
   GoalGraph build() {
-    for (std::uint32_t group = 0; group < catalog_.group_count(); ++group) {
+    for (GroupId group(0); group < catalog_.group_count(); ++group) {
       // To begin the searches of very many groups takes long, too.
       if (options_.on_progress && !options_.on_progress(group, 0)) break;
       first_state_ = static_cast<std::uint32_t>(graph_.state_count());

@@ -22,7 +22,7 @@ struct GoalSearchOptions {
   std::uint64_t max_memory = std::uint64_t{4} << 30U;  ///< bytes that its states may take
   /// Called for each state, and now and then within one that has many moves; false ends the search
   /// as a limit does. May be empty.
-  std::function<bool(std::uint32_t group, std::uint64_t states)> on_progress;
+  std::function<bool(GroupId group, std::uint64_t states)> on_progress;
 };
 
 /// What a search visited.
@@ -48,7 +48,7 @@ struct SeenMove {
 /// goals. `on_move` sees the moves of the states, one state after the other. `unwanted`: null, or
 /// what GoalMonitor::restart() gets before each move. A complete search also tells the monitor
 /// which timeouts always come before others.
-[[nodiscard]] GoalSearchResult search_goals(const CompiledCatalog& catalog, std::uint32_t group,
+[[nodiscard]] GoalSearchResult search_goals(const CompiledCatalog& catalog, GroupId group,
                                             const Assumptions& assumptions, GoalMonitor& monitor,
                                             const std::vector<std::uint8_t>* unwanted,
                                             const GoalSearchOptions& options,
@@ -66,7 +66,7 @@ struct GoalGraph {
   /// The states of a group are numbered from its first state on, by the least number of moves to
   /// them.
   struct Part {
-    std::uint32_t group = 0;
+    GroupId group;
     std::uint32_t first_state = 0;
     bool is_complete = false;  ///< false: a limit came first
   };

@@ -37,7 +37,7 @@ class MissionFinder {
       result_.wanted += missing_[goal];
     }
     GoalSearchOptions of_exploration = options_.exploration;
-    of_exploration.on_progress = [&](std::uint32_t group, std::uint64_t states) {
+    of_exploration.on_progress = [&](GroupId group, std::uint64_t states) {
       const auto& on_progress = options_.exploration.on_progress;
       return !is_stopped() && (!on_progress || on_progress(group, states));
     };
@@ -107,7 +107,7 @@ class MissionFinder {
   [[nodiscard]] Goals bounded() const {
     Goals bounded = missing_;
     if (graph_.parts.size() < 2) return bounded;
-    std::set<std::uint32_t> lively;
+    std::set<GroupId> lively;
     for (const CompiledTask& task : catalog_.tasks) {
       if (task.reactive_start != 0) lively.insert(task.group);
     }
@@ -118,7 +118,7 @@ class MissionFinder {
                                  goal.kind == Goal::Kind::lower_rejected ||
                                  goal.kind == Goal::Kind::equal_displaced;
       if (needs_request || goal.variable != none) continue;
-      const std::uint32_t group =
+      const GroupId group =
           goal.task != none ? catalog_.tasks[goal.task].group : catalog_.group_of(goal.behavior);
       if (lively.contains(group)) bounded[number] = 0;
     }
@@ -139,7 +139,7 @@ class MissionFinder {
                  goals_[item].kind == Goal::Kind::timeout_fired;
         }));
       }
-      const std::uint32_t group = graph_.parts[path.part].group;
+      const GroupId group = graph_.parts[path.part].group;
       add(is_any(is_timeout) ? simulator_.run_by_clock(group, moves_of(path), is_timeout)
                              : simulator_.run(group, moves_of(path)));
     }
@@ -255,7 +255,7 @@ class MissionFinder {
 
   /// The values at the beginning, if nothing else is missing.
   void show_first_values() {
-    if (is_any(first_values_) && catalog_.group_count() > 0) add(simulator_.run(0, {}));
+    if (is_any(first_values_) && catalog_.group_count() > 0) add(simulator_.run(GroupId(0), {}));
   }
 
   void list_unmet() {

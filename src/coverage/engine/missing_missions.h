@@ -21,7 +21,7 @@ namespace cbc {
 struct MissingMissions {
   struct Mission {
     std::string name;  ///< of a file, without its ending: after the goal with which it ends
-    std::uint32_t group = 0;
+    GroupId group;
     Script script;
     std::string text;                  ///< of the script
     std::vector<std::uint32_t> goals;  ///< that no mission before it meets
@@ -40,8 +40,8 @@ struct MissingMissions {
   /// The least number of such scripts, each about one group, with at most so many events as its
   /// group allows. Empty if a limit ended the exploration.
   std::optional<std::uint64_t> lower_bound;
-  std::uint32_t most_events = 0;       ///< of a script, with those of the clock
-  std::vector<std::uint32_t> partial;  ///< groups whose exploration a limit ended
+  std::uint32_t most_events = 0;  ///< of a script, with those of the clock
+  std::vector<GroupId> partial;   ///< groups whose exploration a limit ended
   std::uint64_t states = 0;
   Phase reached = Phase::done;       ///< what is_stopped ended; then the rest means nothing
   std::optional<std::string> error;  ///< see Model::find_obstacle()

@@ -15,7 +15,7 @@ namespace cbc {
 /// A coordinator whose events are monitored.
 class MissionSimulator::Simulation final : public RunListener {
  public:
-  Simulation(const MissionSimulator& simulator, std::uint32_t group, Script script)
+  Simulation(const MissionSimulator& simulator, GroupId group, Script script)
       : catalog_(simulator.catalog_),
         monitor_(catalog_, simulator.goals_, {}),
         runner_(catalog_, without_conflicts(script), *this) {
@@ -132,13 +132,13 @@ class MissionSimulator::Simulation final : public RunListener {
   std::vector<std::uint8_t> known_;  ///< by goal
 };
 
-SimulatedRun MissionSimulator::run(std::uint32_t group, const std::vector<Move>& moves) const {
+SimulatedRun MissionSimulator::run(GroupId group, const std::vector<Move>& moves) const {
   Simulation simulation(*this, group, make_script(catalog_, {group}, assumptions_, moves, second));
   simulation.take();
   return simulation.take_result();
 }
 
-SimulatedRun MissionSimulator::run_by_clock(std::uint32_t group, const std::vector<Move>& moves,
+SimulatedRun MissionSimulator::run_by_clock(GroupId group, const std::vector<Move>& moves,
                                             const std::vector<std::uint8_t>& is_timeout) const {
   Script script = make_script(catalog_, {group}, assumptions_, moves, second);
   const std::vector<Step> steps = std::exchange(script.steps, {});
@@ -163,7 +163,7 @@ SimulatedRun MissionSimulator::run_by_clock(std::uint32_t group, const std::vect
   return simulation.take_result();
 }
 
-SimulatedRun MissionSimulator::wait_after(std::uint32_t group, const std::vector<Move>& moves,
+SimulatedRun MissionSimulator::wait_after(GroupId group, const std::vector<Move>& moves,
                                           const std::vector<std::uint8_t>& wanted,
                                           std::uint32_t most_clock_events) const {
   constexpr Microseconds soon = second / 100;
@@ -208,7 +208,7 @@ std::string describe_goals(const CompiledCatalog& catalog, std::span<const Goal>
 
 /// What an event has decided: its outcome, and what has changed by it, or since the last
 /// expectation. Where it matters that nothing else was chosen, also what goes on.
-Expectation expect(const CompiledCatalog& catalog, std::uint32_t group,
+Expectation expect(const CompiledCatalog& catalog, GroupId group,
                    const SimulatedRun::Moment& moment, const std::vector<BehaviorId>& before,
                    const std::vector<BehaviorId>& expected, bool tells_all) {
   Expectation expectation;
@@ -216,7 +216,7 @@ Expectation expect(const CompiledCatalog& catalog, std::uint32_t group,
     expectation.outcome = moment.outcome;
   }
   const TaskId first = catalog.group_tasks[group];
-  for (std::uint32_t place = 0; place < moment.behaviors.size(); ++place) {
+  for (LocalTask place(0); place < moment.behaviors.size(); ++place) {
     const BehaviorId behavior = moment.behaviors[place];
     const bool is_changed = before[place] != behavior || expected[place] != behavior;
     const std::uint32_t task = catalog.tasks[first + place].catalog_index;

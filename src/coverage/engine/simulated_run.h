@@ -24,7 +24,7 @@ struct SimulatedRun {
     std::optional<Outcome> outcome;     ///< of a start, stop or finish of the script
   };
 
-  std::uint32_t group = 0;
+  GroupId group;
   Script script;                ///< its expectations are empty
   std::vector<Moment> moments;  ///< by step
   /// Timeouts of the group, and instants at which its reactive tasks tried to start.
@@ -41,14 +41,14 @@ class MissionSimulator {
       : catalog_(catalog), goals_(goals), assumptions_(assumptions) {}
 
   /// A mission of these moves, without timeouts.
-  [[nodiscard]] SimulatedRun run(std::uint32_t group, const std::vector<Move>& moves) const;
+  [[nodiscard]] SimulatedRun run(GroupId group, const std::vector<Move>& moves) const;
   /// The same with timeouts: in place of some failures it waits. What comes of it may be another
   /// mission.
-  [[nodiscard]] SimulatedRun run_by_clock(std::uint32_t group, const std::vector<Move>& moves,
+  [[nodiscard]] SimulatedRun run_by_clock(GroupId group, const std::vector<Move>& moves,
                                           const std::vector<std::uint8_t>& is_timeout) const;
   /// Makes the moves, one soon after the other, and then only waits: as long as timeouts meet some
   /// of the wanted goals, and for at most so many events of the clock.
-  [[nodiscard]] SimulatedRun wait_after(std::uint32_t group, const std::vector<Move>& moves,
+  [[nodiscard]] SimulatedRun wait_after(GroupId group, const std::vector<Move>& moves,
                                         const std::vector<std::uint8_t>& wanted,
                                         std::uint32_t most_clock_events) const;
 

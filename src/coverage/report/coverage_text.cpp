@@ -230,7 +230,7 @@ std::string written_missions_to_text(const WrittenMissions& tests, std::size_t c
                quantity(mission.events, "event") + "  " + quantity(mission.goals.size(), "goal")});
   }
   text.add(files.text());
-  for (const std::uint32_t group : missing.partial) {
+  for (const GroupId group : missing.partial) {
     text.line("");
     text.line("a limit ended the exploration of group {}: what it has beyond is not known", group);
   }

@@ -288,7 +288,7 @@ std::vector<Fact> facts(const CompiledCatalog& catalog, ChangeSubject subject) {
       }
       break;
     case ChangeSubject::performs:
-      for (TaskId task = 0; task < task_count; ++task) {
+      for (TaskId task(0); task < task_count; ++task) {
         for (const Value& value : catalog.values[task]) {
           result.push_back({catalog.name_of_behavior(value.behavior),
                             catalog.name_of_task(task),
@@ -297,7 +297,7 @@ std::vector<Fact> facts(const CompiledCatalog& catalog, ChangeSubject subject) {
       }
       break;
     case ChangeSubject::requirement:
-      for (BehaviorId behavior = 0; behavior < behavior_count; ++behavior) {
+      for (BehaviorId behavior(0); behavior < behavior_count; ++behavior) {
         for (const CompiledRequirement& requirement : catalog.requirements[behavior]) {
           result.push_back(
               {catalog.name_of_behavior(behavior),

@@ -42,12 +42,12 @@ struct Decoded {
 
 namespace cbc {
 
-/// Concatenates texts and integers.
+/// Concatenates texts and numbers.
 template <typename... Parts>
 [[nodiscard]] std::string concat(const Parts&... parts) {
   std::string text;
   const auto append = [&text](const auto& part) {
-    if constexpr (std::is_integral_v<std::remove_cvref_t<decltype(part)>>) {
+    if constexpr (requires { std::to_string(part); }) {
       text += std::to_string(part);
     } else {
       text += part;

@@ -13,6 +13,7 @@
 
 #include "cbc/event.h"
 #include "cbc/units.h"
+#include "runtime/base/id.h"
 
 /// A catalog as the solver, the coordinator and all reports use it: flat arrays of numbers, which
 /// stand in compiled files as they are in memory. Their meaning: docs/semantics.md, "Catalog".
@@ -20,14 +21,23 @@ namespace cbc {
 
 /// Number of a task or a behavior in a compiled catalog: group by group, and within a group in
 /// catalog order, so that everything that one event touches lies side by side.
-using TaskId = std::uint32_t;
-using BehaviorId = std::uint32_t;
+using TaskId = Id<struct KindOfTask>;
+using BehaviorId = Id<struct KindOfBehavior>;
 /// Place of a (task, behavior) pair in CompiledCatalog::values.
-using ValueId = std::uint32_t;
+using ValueId = Id<struct KindOfValue>;
+/// Number of a group, in the order of their first task.
+using GroupId = Id<struct KindOfGroup>;
+/// Place of a task among those of its group.
+using LocalTask = Id<struct KindOfLocalTask>;
 /// Place of a text in CompiledCatalog::texts.
 using TextId = std::uint32_t;
 
-inline constexpr std::uint32_t none = UINT32_MAX;
+[[nodiscard]] constexpr TaskId operator+(TaskId first, LocalTask task) {
+  return TaskId(std::uint32_t{first} + std::uint32_t{task});
+}
+[[nodiscard]] constexpr LocalTask operator-(TaskId task, TaskId first) {
+  return LocalTask(std::uint32_t{task} - std::uint32_t{first});
+}
 
 /// Rows of different lengths in one array: row i is items[begin[i]] up to items[begin[i + 1]]. Rows
 /// of characters are texts.
@@ -83,7 +93,7 @@ class Texts {
 
 struct CompiledTask {
   std::uint32_t catalog_index = 0;
-  std::uint32_t group = 0;
+  GroupId group;
   std::uint32_t level = 0;             ///< highest level of its behaviors
   Millionths minimum_performance = 0;  ///< 0: none
   std::int64_t minimum_cost = 0;       ///< log_cost(minimum_performance)
@@ -104,21 +114,21 @@ struct CompiledBehavior {
 /// That a behavior performs a task. The values of a task are in rank order: best suitability
 /// first, equal ones in catalog order.
 struct Value {
-  BehaviorId behavior = 0;
+  BehaviorId behavior;
   Millionths suitability = 0;
   std::int64_t cost = 0;  ///< log_cost(suitability)
 };
 
 struct CompiledRequirement {
-  TaskId task = 0;
+  TaskId task;
   Millionths minimum_performance = 0;  ///< 0: none
   std::int64_t minimum_cost = 0;       ///< log_cost(minimum_performance)
 };
 
 /// An edge of the requirement graph: some values of the source task require the target.
 struct Arc {
-  TaskId source = 0;
-  TaskId target = 0;
+  TaskId source;
+  TaskId target;
   std::uint32_t mask = 0;  ///< first word, in CompiledCatalog::masks, of the values that require it
 };
 
@@ -141,7 +151,7 @@ struct CompiledVariable {
 /// That a behavior fits where a variable has a value. Values of the same variable are alternatives;
 /// a behavior fits if each variable that it names has one of them.
 struct FittingValue {
-  BehaviorId behavior = 0;
+  BehaviorId behavior;
   std::uint32_t variable = 0;
   std::uint32_t value = 0;  ///< counts the values of the variable
 
@@ -168,8 +178,8 @@ struct CatalogArrays {
   List<std::uint32_t> behaviors_by_name;
 
   // By group (docs/semantics.md, "Groups"), in the order of their first task.
-  List<std::uint32_t> group_tasks;      ///< first TaskId of each group, and the end
-  List<std::uint32_t> group_behaviors;  ///< first BehaviorId of each group, and the end
+  List<TaskId> group_tasks;          ///< first TaskId of each group, and the end
+  List<BehaviorId> group_behaviors;  ///< first BehaviorId of each group, and the end
   /// The tasks, each after those that its behaviors require: by group, level and TaskId.
   List<TaskId> topological_order;
 
@@ -272,7 +282,7 @@ struct CompiledCatalog : CatalogArrays<View, Rows> {
   /// The task that a value is of.
   [[nodiscard]] TaskId task_of(ValueId value) const { return value_tasks[value]; }
   /// The group of a behavior, which is that of all its tasks.
-  [[nodiscard]] std::uint32_t group_of(BehaviorId behavior) const {
+  [[nodiscard]] GroupId group_of(BehaviorId behavior) const {
     return tasks[task_of(performs[behavior].front())].group;
   }
   /// The line of the source that says so. `requirement` is one of requirements.
@@ -283,9 +293,10 @@ struct CompiledCatalog : CatalogArrays<View, Rows> {
 
 /// Size of the largest group, by the first items of the groups and the end (group_tasks or
 /// group_behaviors).
-[[nodiscard]] inline std::size_t most_in_a_group(std::span<const std::uint32_t> begin) {
+template <typename T>
+[[nodiscard]] std::size_t most_in_a_group(std::span<const T> begin) {
   std::size_t most = 0;
-  for (std::size_t group = 0; group + 1 < begin.size(); ++group) {
+  for (GroupId group(0); group + 1 < begin.size(); ++group) {
     most = std::max<std::size_t>(most, begin[group + 1] - begin[group]);
   }
   return most;
@@ -294,7 +305,7 @@ struct CompiledCatalog : CatalogArrays<View, Rows> {
 /// Number of values in the group that has most of them.
 [[nodiscard]] inline std::size_t most_values_in_a_group(const CompiledCatalog& catalog) {
   std::size_t most = 0;
-  for (std::size_t group = 0; group < catalog.group_count(); ++group) {
+  for (GroupId group(0); group < catalog.group_count(); ++group) {
     const std::uint32_t end = catalog.values.begin[catalog.group_tasks[group + 1]];
     most = std::max<std::size_t>(most, end - catalog.values.begin[catalog.group_tasks[group]]);
   }

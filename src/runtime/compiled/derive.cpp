@@ -39,9 +39,9 @@ namespace {
 constexpr auto itself = [](std::uint32_t number) { return number; };
 
 /// The places of the items with each key, ascending. Keys are less than `keys`.
-template <typename Items, typename Key>
-GrowingRows<std::uint32_t> group_by(const Items& items, std::size_t keys, const Key& key) {
-  GrowingRows<std::uint32_t> rows;
+template <typename Place = std::uint32_t, typename Items, typename Key>
+GrowingRows<Place> group_by(const Items& items, std::size_t keys, const Key& key) {
+  GrowingRows<Place> rows;
   // One entry more than is needed: begin[k + 1] is where the next item with key k goes, and so in
   // the end where the first with key k + 1 is.
   rows.begin.assign(keys + 2, 0);
@@ -49,14 +49,18 @@ GrowingRows<std::uint32_t> group_by(const Items& items, std::size_t keys, const 
   std::partial_sum(rows.begin.begin(), rows.begin.end(), rows.begin.begin());
   rows.begin.pop_back();
   rows.items.resize(items.size());
-  std::uint32_t place = 0;
-  for (const auto& item : items) rows.items[rows.begin[key(item) + 1]++] = place++;
+  Place place(0);
+  for (const auto& item : items) {
+    rows.items[rows.begin[key(item) + 1]++] = place;
+    ++place;
+  }
   return rows;
 }
 
-std::vector<std::uint32_t> inverse(const std::vector<std::uint32_t>& order) {
-  std::vector<std::uint32_t> place_of(order.size());
-  for (std::uint32_t place = 0; place < order.size(); ++place) place_of[order[place]] = place;
+template <typename Place>
+std::vector<Place> inverse(const std::vector<std::uint32_t>& order) {
+  std::vector<Place> place_of(order.size());
+  for (Place place(0); place < order.size(); ++place) place_of[order[place]] = place;
   return place_of;
 }
 
@@ -68,13 +72,13 @@ void derive_groups(GrowingCatalog& catalog, const DisjointSets& connected,
   const std::size_t groups =
       group_of_task.empty() ? 0 : *std::max_element(group_of_task.begin(), group_of_task.end()) + 1;
   GrowingRows<std::uint32_t> by_group = group_by(group_of_task, groups, itself);
-  catalog.task_ids = inverse(by_group.items);
-  catalog.group_tasks = std::move(by_group.begin);
+  catalog.task_ids = inverse<TaskId>(by_group.items);
+  catalog.group_tasks = std::vector<TaskId>(by_group.begin.begin(), by_group.begin.end());
 
   by_group =
       group_by(tasks_of_behaviors, groups, [&](std::uint32_t task) { return group_of_task[task]; });
-  catalog.behavior_ids = inverse(by_group.items);
-  catalog.group_behaviors = std::move(by_group.begin);
+  catalog.behavior_ids = inverse<BehaviorId>(by_group.items);
+  catalog.group_behaviors = std::vector<BehaviorId>(by_group.begin.begin(), by_group.begin.end());
 }
 
 namespace {
@@ -91,8 +95,8 @@ class Derivation {
   std::optional<std::string> run(std::size_t most_masks) {
     add_places();
     add_value_tasks();
-    out_.performs = group_by(given_.values.items, behavior_count_,
-                             [](const Value& value) { return value.behavior; });
+    out_.performs = group_by<ValueId>(given_.values.items, behavior_count_,
+                                      [](const Value& value) { return value.behavior; });
     if (!add_arcs(most_masks)) {
       return concat("more than ", most_masks, " masks are needed");
     }
@@ -114,7 +118,7 @@ class Derivation {
     for (std::uint32_t index = 0; index < behavior_count_; ++index) {
       out_.behaviors[out_.behavior_ids[index]].catalog_index = index;
     }
-    for (std::uint32_t group = 0; group + 1 < out_.group_tasks.size(); ++group) {
+    for (GroupId group(0); group + 1 < out_.group_tasks.size(); ++group) {
       for (TaskId id = out_.group_tasks[group]; id < out_.group_tasks[group + 1]; ++id) {
         out_.tasks[id].group = group;
       }
@@ -125,7 +129,7 @@ class Derivation {
     out_.value_tasks.resize(given_.values.items.size());
     out_.words.assign(1, 0);
     out_.words.reserve(task_count_ + 1);
-    for (TaskId task = 0; task < task_count_; ++task) {
+    for (TaskId task(0); task < task_count_; ++task) {
       const std::uint32_t first = given_.values.begin[task];
       const std::uint32_t end = given_.values.begin[task + 1];
       std::fill(out_.value_tasks.begin() + first, out_.value_tasks.begin() + end, task);
@@ -138,7 +142,7 @@ class Derivation {
   [[nodiscard]] bool add_arcs(std::size_t most) {
     std::vector<std::uint32_t> arc_to(task_count_, none);
     out_.arcs.begin.reserve(task_count_ + 1);
-    for (TaskId task = 0; task < task_count_; ++task) {
+    for (TaskId task(0); task < task_count_; ++task) {
       const std::uint32_t words = out_.words[task + 1] - out_.words[task];
       const auto values = given_.values[task];
       const auto first = static_cast<std::uint32_t>(out_.arcs.items.size());
@@ -166,7 +170,7 @@ class Derivation {
     std::vector<std::uint32_t> missing(task_count_);  ///< targets that were not taken, by task
     std::vector<TaskId> taken;
     taken.reserve(task_count_);
-    for (TaskId task = 0; task < task_count_; ++task) {
+    for (TaskId task(0); task < task_count_; ++task) {
       out_.tasks[task].level = 0;
       missing[task] = static_cast<std::uint32_t>(out_.arcs[task].size());
       if (missing[task] == 0) taken.push_back(task);
@@ -183,7 +187,7 @@ class Derivation {
   }
 
   void add_behavior_levels() {
-    for (BehaviorId id = 0; id < behavior_count_; ++id) {
+    for (BehaviorId id(0); id < behavior_count_; ++id) {
       std::uint32_t& level = out_.behaviors[id].level;
       level = 0;
       for (const CompiledRequirement& requirement : given_.requirements[id]) {
@@ -196,7 +200,7 @@ class Derivation {
     for (CompiledTask& task : out_.tasks) {
       task.has_performance_rules = task.minimum_performance > 0 ? 1 : 0;
     }
-    for (BehaviorId id = 0; id < behavior_count_; ++id) {
+    for (BehaviorId id(0); id < behavior_count_; ++id) {
       const auto requirements = given_.requirements[id];
       if (std::none_of(requirements.begin(), requirements.end(),
                        [](const auto& one) { return one.minimum_performance > 0; })) {
@@ -211,13 +215,16 @@ class Derivation {
   /// Sorted by level first, and then, which keeps that order, by group.
   void add_topological_order() {
     const std::vector<TaskId> by_level =
-        group_by(out_.tasks, task_count_, [](const CompiledTask& task) {
+        group_by<TaskId>(out_.tasks, task_count_, [](const CompiledTask& task) {
           return task.level;
         }).items;
-    out_.topological_order = group_by(by_level, out_.group_tasks.size() - 1, [&](TaskId task) {
-                               return out_.tasks[task].group;
-                             }).items;
-    for (TaskId& task : out_.topological_order) task = by_level[task];
+    const std::vector<std::uint32_t> places =
+        group_by(by_level, out_.group_tasks.size() - 1, [&](TaskId task) {
+          return out_.tasks[task].group;
+        }).items;
+    out_.topological_order.resize(places.size());
+    std::transform(places.begin(), places.end(), out_.topological_order.begin(),
+                   [&](std::uint32_t place) { return by_level[place]; });
   }
 
   void add_task_cliques() {

@@ -30,6 +30,10 @@ template <>
 struct Stored<char> {
   using Type = std::int8_t;
 };
+template <typename Kind>
+struct Stored<Id<Kind>> {
+  using Type = std::uint32_t;
+};
 template <>
 struct Stored<CompiledTask> {
   using Type = flat::Task;

@@ -209,7 +209,7 @@ Fault find_index_fault(std::string_view kind, std::uint32_t id, std::uint32_t in
 
 Fault find_task_fault(const CompiledCatalog& catalog) {
   KnownCosts costs;
-  for (TaskId id = 0; id < catalog.tasks.size(); ++id) {
+  for (TaskId id(0); id < catalog.tasks.size(); ++id) {
     const CompiledTask& task = catalog.tasks[id];
     if (auto fault = find_index_fault("task", id, task.catalog_index, catalog.tasks.size())) {
       return fault;
@@ -235,7 +235,7 @@ Fault find_task_fault(const CompiledCatalog& catalog) {
 /// Best suitability first, equal ones in the order of the behaviors.
 Fault find_value_fault(const CompiledCatalog& catalog) {
   KnownCosts costs;
-  for (TaskId task = 0; task < catalog.tasks.size(); ++task) {
+  for (TaskId task(0); task < catalog.tasks.size(); ++task) {
     const Value* before = nullptr;
     for (const Value& value : catalog.values[task]) {
       if (value.behavior >= catalog.behaviors.size()) {
@@ -262,14 +262,14 @@ Fault find_value_fault(const CompiledCatalog& catalog) {
 
 Fault find_behavior_fault(const CompiledCatalog& catalog) {
   KnownCosts costs;
-  for (BehaviorId id = 0; id < catalog.behaviors.size(); ++id) {
+  for (BehaviorId id(0); id < catalog.behaviors.size(); ++id) {
     const CompiledBehavior& behavior = catalog.behaviors[id];
     if (auto fault =
             find_index_fault("behavior", id, behavior.catalog_index, catalog.behaviors.size())) {
       return fault;
     }
     if (auto fault = find_timeout_fault("behavior", id, behavior.timeout)) return fault;
-    TaskId next = 0;
+    TaskId next;
     for (const CompiledRequirement& requirement : catalog.requirements[id]) {
       if (requirement.task >= catalog.tasks.size()) {
         return concat("behavior ", id, " requires task ", requirement.task, " of ",
@@ -278,7 +278,7 @@ Fault find_behavior_fault(const CompiledCatalog& catalog) {
       if (requirement.task < next) {
         return concat("the tasks that behavior ", id, " requires do not ascend");
       }
-      next = requirement.task + 1;
+      next = TaskId(requirement.task + 1);
       if (requirement.minimum_performance > one_million) {
         return concat("behavior ", id, " requires ", requirement.minimum_performance,
                       " millionths of task ", requirement.task, ", which is over 1");
@@ -424,7 +424,7 @@ Fault find_group_fault(const CompiledCatalog& catalog, GrowingCatalog& derived) 
   DisjointSets connected(catalog.tasks.size());
   const auto index_of = [&](TaskId task) { return catalog.tasks[task].catalog_index; };
   std::vector<std::uint32_t> task_of(catalog.behaviors.size(), none);  // by behavior id
-  for (TaskId task = 0; task < catalog.tasks.size(); ++task) {
+  for (TaskId task(0); task < catalog.tasks.size(); ++task) {
     for (const Value& value : catalog.values[task]) {
       std::uint32_t& first = task_of[value.behavior];
       if (first == none) first = index_of(task);
@@ -432,7 +432,7 @@ Fault find_group_fault(const CompiledCatalog& catalog, GrowingCatalog& derived) 
     }
   }
   std::vector<std::uint32_t> tasks_of_behaviors(catalog.behaviors.size());
-  for (BehaviorId id = 0; id < catalog.behaviors.size(); ++id) {
+  for (BehaviorId id(0); id < catalog.behaviors.size(); ++id) {
     if (task_of[id] == none) return concat("behavior ", id, " performs no task");
     tasks_of_behaviors[catalog.behaviors[id].catalog_index] = task_of[id];
     for (const CompiledRequirement& requirement : catalog.requirements[id]) {
@@ -460,7 +460,7 @@ Fault find_derived_fault(const CompiledCatalog& catalog) {
   derived.tasks.assign(catalog.tasks.begin(), catalog.tasks.end());
   derived.behaviors.assign(catalog.behaviors.begin(), catalog.behaviors.end());
   if (auto fault = derive_rest(catalog, derived)) return fault;
-  for (BehaviorId id = 0; id < catalog.behaviors.size(); ++id) {
+  for (BehaviorId id(0); id < catalog.behaviors.size(); ++id) {
     const auto values = derived.performs[id];
     for (std::size_t i = 1; i < values.size(); ++i) {
       const TaskId task = derived.value_tasks[values[i]];

@@ -39,7 +39,7 @@ Coordinator::Coordinator(const CompiledCatalog& catalog, const CoordinatorOption
 void Coordinator::begin(std::span<const Availability> situation,
                         std::span<const VariableValue> variables) {
   state_.change_situation(situation, variables);
-  for (std::uint32_t group = 0; group < catalog_.group_count(); ++group) enqueue_group(group);
+  for (GroupId group(0); group < catalog_.group_count(); ++group) enqueue_group(group);
 }
 
 void Coordinator::resume(const Snapshot& snapshot) {
@@ -366,7 +366,7 @@ std::string Coordinator::describe_refusal(const std::string& violation) const {
   std::string text = concat("event ", record_.index, " (", name_of(record_.verb), "): ", violation,
                             "; the answer was");
   const TaskId first = catalog_.group_tasks[search_.group];
-  for (std::uint32_t task = 0; task < solution_.size(); ++task) {
+  for (LocalTask task(0); task < solution_.size(); ++task) {
     const std::uint32_t place = solution_[task];
     if (place == none) continue;
     text += concat(
@@ -430,7 +430,7 @@ const Problem& Coordinator::keep_present(std::int32_t protection) {
   const Problem& problem = problem_builder_.build(protection);
   solution_ = problem.present;
   const TaskId first = catalog_.group_tasks[problem.group];
-  for (std::uint32_t task = 0; task < solution_.size(); ++task) {
+  for (LocalTask task(0); task < solution_.size(); ++task) {
     if (problem_builder_.has_finished(first + task)) solution_[task] = none;
   }
   checker_.stop_violating_tasks(problem, solution_);
@@ -454,7 +454,7 @@ const Problem* Coordinator::timed_search(const Trigger& trigger) {
 void Coordinator::note_domain_sizes(const Problem& problem) {
   const TaskId first = catalog_.group_tasks[problem.group];
   search_.domain_sizes.clear();
-  for (std::uint32_t task = 0; task < problem.may_stop.size(); ++task) {
+  for (LocalTask task(0); task < problem.may_stop.size(); ++task) {
     std::uint32_t size = problem.may_stop[task];
     for (std::uint32_t word = catalog_.words[first + task]; word < catalog_.words[first + task + 1];
          ++word) {
@@ -502,7 +502,7 @@ void Coordinator::explain(const Trigger& trigger, const Problem& problem) {
   if (!options_.explain.asks_for_any() || search_.result.status != SearchStatus::optimal) return;
   const bool is_only_of_displaced =
       options_.explain.why.empty() && options_.explain.alternatives == 0;
-  const auto is_displaced = [&](std::uint32_t task) { return solution_[task] == none; };
+  const auto is_displaced = [&](LocalTask task) { return solution_[task] == none; };
   if (is_only_of_displaced &&
       std::none_of(problem.requests.begin(), problem.requests.end(), is_displaced)) {
     return;
@@ -570,7 +570,7 @@ void Coordinator::assign(const Trigger& trigger) {
   }
 }
 
-void Coordinator::update_timeouts(std::uint32_t group) {
+void Coordinator::update_timeouts(GroupId group) {
   if (!options_.timeouts) return;
   for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
     state_.update_timeout(task, now_);
@@ -586,7 +586,7 @@ void Coordinator::update_queue() {
 }
 
 /// The tasks of the group that wait try again after an accepted event.
-void Coordinator::retry_waiting(std::uint32_t group) {
+void Coordinator::retry_waiting(GroupId group) {
   for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
     if (!state_.is_waiting(task)) continue;
     if (state_.is_running(task) || state_.excludes_running_task(task)) {
@@ -616,7 +616,7 @@ void Coordinator::dequeue_with_rivals(TaskId task) {
   }
 }
 
-void Coordinator::enqueue_group(std::uint32_t group) {
+void Coordinator::enqueue_group(GroupId group) {
   for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
     enqueue_if_reactive(task);
   }

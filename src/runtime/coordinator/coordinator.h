@@ -100,7 +100,7 @@ class Coordinator {
 
   /// Why the present values of the tasks of a group meet the demands of none of the `ways`. Only
   /// if the options say `last_decisions`.
-  [[nodiscard]] WhyUnmet why_unmet(std::uint32_t group, std::span<const Demands> ways) {
+  [[nodiscard]] WhyUnmet why_unmet(GroupId group, std::span<const Demands> ways) {
     return last_decisions_->why_unmet(group, ways);
   }
 
@@ -137,13 +137,13 @@ class Coordinator {
   Status reject(const Trigger& trigger);
   bool note_waiting(const Trigger& trigger);
   void assign(const Trigger& trigger);
-  void update_timeouts(std::uint32_t group);
+  void update_timeouts(GroupId group);
   void update_queue();
-  void retry_waiting(std::uint32_t group);
+  void retry_waiting(GroupId group);
   void enqueue_if_reactive(TaskId task);
   void enqueue_rivals(TaskId task);
   void dequeue_with_rivals(TaskId task);
-  void enqueue_group(std::uint32_t group);
+  void enqueue_group(GroupId group);
 
   const CompiledCatalog& catalog_;
   const CoordinatorOptions options_;

@@ -419,7 +419,7 @@ std::vector<Reason> find_conflict(const CompiledCatalog& catalog,
 }
 
 ObjectiveValues objectives_elsewhere(const CompiledCatalog& catalog, const State& state,
-                                     std::uint32_t group) {
+                                     GroupId group) {
   ObjectiveValues values;
   values.requests = state.request_count();
   values.idle_total = state.idle_total();
@@ -503,7 +503,7 @@ std::vector<Reason> Explainer::reasons_of_unavailability(const State& state, Tas
   return reasons;
 }
 
-bool Explainer::is_in_group(const Subject& subject, std::uint32_t group) const {
+bool Explainer::is_in_group(const Subject& subject, GroupId group) const {
   if (subject.is_task)
     return catalog_.tasks[catalog_.task_ids[subject.catalog_index]].group == group;
   return catalog_.group_of(catalog_.behavior_ids[subject.catalog_index]) == group;
@@ -511,7 +511,7 @@ bool Explainer::is_in_group(const Subject& subject, std::uint32_t group) const {
 
 void Explainer::explain_displaced(const Circumstances& circumstances, const Problem& problem,
                                   Explanation& explanation) {
-  for (const std::uint32_t task : problem.requests) {
+  for (const LocalTask task : problem.requests) {
     if (explanation.chosen.assignment[task] != none) continue;
     const TaskId id = catalog_.group_tasks[problem.group] + task;
     const Demands runs{{Demand::Kind::run, id, none}};

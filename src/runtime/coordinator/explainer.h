@@ -39,7 +39,7 @@ struct Circumstances {
 
 /// The objectives outside a group, where all requests are satisfied and nothing changes.
 [[nodiscard]] ObjectiveValues objectives_elsewhere(const CompiledCatalog& catalog,
-                                                   const State& state, std::uint32_t group);
+                                                   const State& state, GroupId group);
 
 /// Explains accepted answers by a search for the best alternatives. Allocates on every event.
 class Explainer {
@@ -67,7 +67,7 @@ class Explainer {
   [[nodiscard]] TaskId queued_task(const State& state, BehaviorId behavior) const;
   [[nodiscard]] std::vector<Reason> reasons_of_unavailability(const State& state,
                                                               TaskId task) const;
-  [[nodiscard]] bool is_in_group(const Subject& subject, std::uint32_t group) const;
+  [[nodiscard]] bool is_in_group(const Subject& subject, GroupId group) const;
   void explain_displaced(const Circumstances& circumstances, const Problem& problem,
                          Explanation& explanation);
   void explain_task(const Circumstances& circumstances, TaskId task, Explanation& explanation);

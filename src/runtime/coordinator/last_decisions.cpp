@@ -34,7 +34,7 @@ LastDecisions::LastDecisions(const CompiledCatalog& catalog,
 
 void LastDecisions::note_answer(const EventRecord& record, const Circumstances& circumstances,
                                 const Assignment& solution) {
-  const std::uint32_t group = circumstances.trigger.group;
+  const GroupId group = circumstances.trigger.group;
   rejections_.erase(group);
   Decision& decision = decisions_[group];
   copy_event(record, decision.event, decision.search);
@@ -59,7 +59,7 @@ void LastDecisions::note_rejection(const EventRecord& record, const Trigger& tri
 /// elsewhere is a part of the suitability that is told.
 void LastDecisions::save_state(const Circumstances& circumstances, Snapshot& before) const {
   const State& state = circumstances.state;
-  const std::uint32_t group = circumstances.trigger.group;
+  const GroupId group = circumstances.trigger.group;
   before.running.clear();
   for (const std::uint32_t index : state.running()) {
     const TaskId task = catalog_.task_ids[index];
@@ -78,7 +78,7 @@ void LastDecisions::save_state(const Circumstances& circumstances, Snapshot& bef
   before.variables = state.variables();
 }
 
-WhyUnmet LastDecisions::why_unmet(std::uint32_t group, std::span<const Demands> ways) {
+WhyUnmet LastDecisions::why_unmet(GroupId group, std::span<const Demands> ways) {
   WhyUnmet answer;
   for (const Demands& way : ways) {
     for (const Demand& demand : way) {
@@ -108,7 +108,7 @@ WhyUnmet LastDecisions::why_unmet(std::uint32_t group, std::span<const Demands> 
 
 /// A rejected start of a task that does not run but should, or a rejected stop of one that should
 /// not.
-const LastDecisions::Rejection* LastDecisions::find_rejection(std::uint32_t group,
+const LastDecisions::Rejection* LastDecisions::find_rejection(GroupId group,
                                                               std::span<const Demands> ways) const {
   const auto found = rejections_.find(group);
   if (found == rejections_.end()) return nullptr;

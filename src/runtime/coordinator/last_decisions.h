@@ -54,7 +54,7 @@ class LastDecisions {
   void note_rejection(const EventRecord& record, const Trigger& trigger);
 
   /// Why the present values of a group meet the demands of none of the `ways`.
-  [[nodiscard]] WhyUnmet why_unmet(std::uint32_t group, std::span<const Demands> ways);
+  [[nodiscard]] WhyUnmet why_unmet(GroupId group, std::span<const Demands> ways);
 
  private:
   struct Decision {
@@ -73,16 +73,15 @@ class LastDecisions {
   };
 
   void save_state(const Circumstances& circumstances, Snapshot& before) const;
-  [[nodiscard]] const Rejection* find_rejection(std::uint32_t group,
-                                                std::span<const Demands> ways) const;
+  [[nodiscard]] const Rejection* find_rejection(GroupId group, std::span<const Demands> ways) const;
   [[nodiscard]] WhyNot explain(Decision& decision, const State& before,
                                std::span<const Demands> ways);
 
   const CompiledCatalog& catalog_;
   const State& state_;
   Explainer explainer_;
-  std::map<std::uint32_t, Decision> decisions_;
-  std::map<std::uint32_t, Rejection> rejections_;
+  std::map<GroupId, Decision> decisions_;
+  std::map<GroupId, Rejection> rejections_;
 };
 
 }  // namespace cbc

@@ -62,11 +62,11 @@ void ProblemBuilder::find_active() {
 /// The active requests: those of running tasks and the new one, without those that a stop or a
 /// success ends; the highest priority first, then the most recent.
 void ProblemBuilder::rank_requests(std::uint64_t event) {
-  const auto priority_of = [&](std::uint32_t task) {
+  const auto priority_of = [&](LocalTask task) {
     const TaskId id = first_task_ + task;
     return id == trigger_.task ? trigger_.priority : state_.request(id).priority;
   };
-  const auto event_of = [&](std::uint32_t task) {
+  const auto event_of = [&](LocalTask task) {
     const TaskId id = first_task_ + task;
     return id == trigger_.task ? event : state_.request(id).event;
   };
@@ -79,11 +79,10 @@ void ProblemBuilder::rank_requests(std::uint64_t event) {
       problem_.requests.push_back(task - first_task_);
     }
   }
-  std::sort(problem_.requests.begin(), problem_.requests.end(),
-            [&](std::uint32_t a, std::uint32_t b) {
-              return priority_of(a) != priority_of(b) ? priority_of(a) > priority_of(b)
-                                                      : event_of(a) > event_of(b);
-            });
+  std::sort(problem_.requests.begin(), problem_.requests.end(), [&](LocalTask a, LocalTask b) {
+    return priority_of(a) != priority_of(b) ? priority_of(a) > priority_of(b)
+                                            : event_of(a) > event_of(b);
+  });
 }
 
 std::optional<std::int32_t> ProblemBuilder::next_protection(std::int32_t level) const {

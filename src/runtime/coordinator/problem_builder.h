@@ -16,7 +16,7 @@ namespace cbc {
 struct Trigger {
   enum class Kind : std::uint8_t { start, stop, finish };
   Kind kind = Kind::start;
-  std::uint32_t group = 0;
+  GroupId group;
   TaskId task = none;          ///< of start and stop
   BehaviorId behavior = none;  ///< of finish
   FinishCause cause = FinishCause::goal_achieved;
@@ -75,8 +75,8 @@ class ProblemBuilder {
   const CompiledCatalog& catalog_;
   const State& state_;
   Trigger trigger_;
-  TaskId first_task_ = 0;
-  TaskId end_task_ = 0;
+  TaskId first_task_;
+  TaskId end_task_;
   std::int32_t first_protection_ = 0;
   std::vector<BehaviorId> excluded_;
   std::vector<std::uint8_t> is_listed_;  ///< by behavior of the group

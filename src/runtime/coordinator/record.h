@@ -161,7 +161,7 @@ struct Explanation {
 /// One activation or deactivation, in the order applied.
 struct Change {
   bool is_activation = false;
-  BehaviorId behavior = 0;
+  BehaviorId behavior;
   std::uint32_t first_task = 0;  ///< its first one in EventRecord::tasks_of_changes
   std::uint32_t task_count = 0;
   ChangeCause cause = ChangeCause::requested;
@@ -170,7 +170,7 @@ struct Change {
 };
 
 struct StoppedTask {
-  TaskId task = 0;
+  TaskId task;
   FinishCause cause = FinishCause::interrupted;
   bool has_finished = false;  ///< by the finish of its behavior
   bool had_request = false;   ///< before the event
@@ -178,7 +178,7 @@ struct StoppedTask {
 
 struct SearchRecord {
   SearchResult result;  ///< status of the last search; counts over all searches of the event
-  std::uint32_t group = 0;
+  GroupId group;
   std::int32_t protection = 0;
   bool is_escalated = false;                ///< the first protection level had no solution
   std::vector<std::uint32_t> domain_sizes;  ///< their product is the search space

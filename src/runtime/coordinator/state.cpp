@@ -105,14 +105,14 @@ State::State(const CompiledCatalog& catalog)
     fitting_[fitting.variable].push_back(fitting);
     before = &fitting;
   }
-  for (BehaviorId behavior = 0; behavior < catalog.behaviors.size(); ++behavior) {
+  for (BehaviorId behavior(0); behavior < catalog.behaviors.size(); ++behavior) {
     update_available(behavior);
   }
 }
 
 void State::clear() {
   for (const std::uint32_t index : running()) set_value(catalog_.task_ids[index], none, 0);
-  for (BehaviorId behavior = 0; behavior < catalog_.behaviors.size(); ++behavior) {
+  for (BehaviorId behavior(0); behavior < catalog_.behaviors.size(); ++behavior) {
     if (is_denied(behavior)) set_denied(behavior, false);
   }
   std::fill(faulty_.begin(), faulty_.end(), std::uint8_t{0});
@@ -433,7 +433,7 @@ class SnapshotCheck {
   /// Checks the constraints as for an answer of the solver.
   void check_constraints() {
     Checker checker(catalog_);
-    for (std::uint32_t group = 0; group < catalog_.group_count(); ++group) {
+    for (GroupId group(0); group < catalog_.group_count(); ++group) {
       const TaskId first = catalog_.group_tasks[group];
       const TaskId end = catalog_.group_tasks[group + 1];
       Problem anything;

@@ -193,7 +193,7 @@ class State {
 /// The state of a coordinator, and of the runner of its script, between two events.
 struct Snapshot {
   struct RunningTask {
-    TaskId task = 0;
+    TaskId task;
     std::uint32_t value_index = 0;
     Microseconds since = 0;  ///< when it took the behavior
     std::optional<Request> request;

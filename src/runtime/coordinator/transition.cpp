@@ -55,7 +55,7 @@ std::uint32_t Transition::count_changes() const {
 
 void Transition::find_wanted(const Assignment& solution) {
   wanted_.assign(end_behavior_ - first_behavior_, 0);
-  for (std::uint32_t task = 0; task < solution.size(); ++task) {
+  for (LocalTask task(0); task < solution.size(); ++task) {
     const BehaviorId behavior = behavior_in(solution, first_task_ + task);
     if (behavior != none) wanted_[behavior - first_behavior_] = 1;
   }

@@ -62,9 +62,9 @@ class Transition {
   State& state_;
   EventRecord& record_;
   Trigger trigger_;
-  TaskId first_task_ = 0;
-  BehaviorId first_behavior_ = 0;
-  BehaviorId end_behavior_ = 0;
+  TaskId first_task_;
+  BehaviorId first_behavior_;
+  BehaviorId end_behavior_;
   std::vector<std::uint8_t> was_active_;  ///< by behavior of the group
   std::vector<std::uint8_t> wanted_;      ///< by behavior of the group
   /// By behavior of the group: the place in the record of its last activation that succeeded, or

@@ -33,7 +33,7 @@ SearchOptions search_options() {
 
 /// The domain words of a task among those of its group.
 template <typename Words>
-auto words_of(const CompiledCatalog& catalog, std::uint32_t group, Words& words, TaskId task) {
+auto words_of(const CompiledCatalog& catalog, GroupId group, Words& words, TaskId task) {
   const std::uint32_t first = catalog.words[catalog.group_tasks[group]];
   return std::span(words).subspan(catalog.words[task] - first,
                                   catalog.words[task + 1] - catalog.words[task]);
@@ -139,7 +139,7 @@ std::vector<Configuration> ConfigurationSearch::list_best(const Assignment& best
 void ConfigurationSearch::split(Subproblem subproblem, std::size_t most,
                                 std::vector<Subproblem>& open) {
   const TaskId first = catalog_.group_tasks[subproblem.problem.group];
-  for (std::uint32_t task = 0; task < subproblem.best.assignment.size(); ++task) {
+  for (LocalTask task(0); task < subproblem.best.assignment.size(); ++task) {
     if (!has_choice(catalog_, subproblem.problem, first + task)) continue;
     const std::uint32_t index = subproblem.best.assignment[task];
     Subproblem other;
@@ -187,10 +187,10 @@ Configuration Comparison::evaluate(Assignment assignment) const {
   ObjectiveValues& objective = configuration.objective;
   objective = elsewhere_;
   objective.requests += static_cast<std::uint32_t>(problem_->requests.size());
-  for (const std::uint32_t task : problem_->requests) {
+  for (const LocalTask task : problem_->requests) {
     if (assignment[task] != none) ++objective.satisfied;
   }
-  for (std::uint32_t task = 0; task < assignment.size(); ++task) {
+  for (LocalTask task(0); task < assignment.size(); ++task) {
     if (assignment[task] != none && catalog_.tasks[first_task_ + task].start_on_request == 0) {
       ++objective.idle_running;
     }
@@ -202,7 +202,7 @@ Configuration Comparison::evaluate(Assignment assignment) const {
 
 std::uint32_t Comparison::count_changes(const Assignment& assignment) const {
   std::vector<BehaviorId> active;
-  for (std::uint32_t task = 0; task < assignment.size(); ++task) {
+  for (LocalTask task(0); task < assignment.size(); ++task) {
     if (assignment[task] != none) {
       active.push_back(catalog_.values[first_task_ + task][assignment[task]].behavior);
     }
@@ -225,7 +225,7 @@ Difference Comparison::compare(const Configuration& a, const Configuration& b) {
   // The most important requests that only one of the two satisfies.
   TaskId only_first = none;
   TaskId only_second = none;
-  for (const std::uint32_t task : problem_->requests) {
+  for (const LocalTask task : problem_->requests) {
     const bool first_runs = a.assignment[task] != none;
     const bool second_runs = b.assignment[task] != none;
     if (first_runs && !second_runs && only_first == none) only_first = first_task_ + task;
@@ -250,7 +250,7 @@ Difference Comparison::compare(const Configuration& a, const Configuration& b) {
   if (a.objective.changes != b.objective.changes) {
     return decide(Criterion::changes, a.objective.changes < b.objective.changes);
   }
-  std::uint32_t task = 0;
+  LocalTask task;
   while (a.assignment[task] == b.assignment[task]) ++task;
   difference.task = first_task_ + task;
   return decide(Criterion::canonical,
@@ -258,14 +258,14 @@ Difference Comparison::compare(const Configuration& a, const Configuration& b) {
 }
 
 std::strong_ordering Comparison::compare_suitability(const Assignment& a, const Assignment& b) {
-  const auto suitability = [&](std::size_t task, std::uint32_t index) {
+  const auto suitability = [&](LocalTask task, std::uint32_t index) {
     const auto values = catalog_.values[first_task_ + task];
     return index == none ? one_million : values[index].suitability;
   };
   // Equal factors may be left out unless they are 0.
   first_.clear();
   second_.clear();
-  for (std::size_t task = 0; task < a.size(); ++task) {
+  for (LocalTask task(0); task < a.size(); ++task) {
     const Millionths ours = suitability(task, a[task]);
     const Millionths theirs = suitability(task, b[task]);
     if (ours == theirs && ours != 0) continue;

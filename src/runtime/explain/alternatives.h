@@ -74,7 +74,7 @@ class Comparison {
   CanonicalOrder order_;
   const Problem* problem_ = nullptr;
   ObjectiveValues elsewhere_;
-  TaskId first_task_ = 0;
+  TaskId first_task_;
   ExactProduct first_;
   ExactProduct second_;
 };

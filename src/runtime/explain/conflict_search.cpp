@@ -15,7 +15,7 @@
 
 namespace cbc {
 
-RelaxedTrail::RelaxedTrail(const CompiledCatalog& catalog, std::uint32_t group, Domains& domains)
+RelaxedTrail::RelaxedTrail(const CompiledCatalog& catalog, GroupId group, Domains& domains)
     : Trail(catalog, domains),
       first_behavior_(catalog.group_behaviors[group]),
       behavior_count_(catalog.group_behaviors[group + 1] - first_behavior_) {
@@ -37,7 +37,7 @@ void RelaxedTrail::load(std::span<const Reason> reasons) {
   nogood_origins_.clear();
   origin_begins_.assign(1, 0);
   origin_reasons_.clear();
-  for (std::uint32_t task = 0; task < task_count_; ++task) {
+  for (LocalTask task(0); task < task_count_; ++task) {
     if (domains_.count(task) > 0) continue;
     static_cast<void>(imply(negate(runs(task)), {Cause::Kind::no_value}));
   }
@@ -85,7 +85,7 @@ std::span<const std::uint32_t> RelaxedTrail::reasons_of(const Cause& cause) cons
   return {origin_reasons_.data() + begin, origin_begins_[origin + 1] - begin};
 }
 
-bool RelaxedTrail::follow_running(std::uint32_t task) {
+bool RelaxedTrail::follow_running(LocalTask task) {
   const std::span<const std::uint32_t> exclusions = exclusions_[task];
   effort_ += exclusions.size();
   for (const std::uint32_t index : exclusions) {
@@ -97,7 +97,7 @@ bool RelaxedTrail::follow_running(std::uint32_t task) {
   return true;
 }
 
-bool RelaxedTrail::follow_not_running(std::uint32_t task) {
+bool RelaxedTrail::follow_not_running(LocalTask task) {
   for (const std::uint32_t index : required_by_[task]) {
     const auto values = catalog_.performs[constraints_[index].behavior];
     effort_ += values.size();
@@ -109,7 +109,7 @@ bool RelaxedTrail::follow_not_running(std::uint32_t task) {
   return true;
 }
 
-bool RelaxedTrail::follow_value(std::uint32_t /*task*/, ValueId value) {
+bool RelaxedTrail::follow_value(LocalTask /*task*/, ValueId value) {
   const BehaviorId behavior = catalog_.values.items[value].behavior;
   const std::span<const std::uint32_t> requirements = requirements_[behavior - first_behavior_];
   effort_ += requirements.size();
@@ -120,7 +120,7 @@ bool RelaxedTrail::follow_value(std::uint32_t /*task*/, ValueId value) {
   return true;
 }
 
-ConflictSearch::ConflictSearch(const CompiledCatalog& catalog, std::uint32_t group,
+ConflictSearch::ConflictSearch(const CompiledCatalog& catalog, GroupId group,
                                const std::vector<std::uint32_t>& present, Demands demands)
     : catalog_(catalog),
       present_(present),
@@ -161,7 +161,7 @@ Feasibility ConflictSearch::solve(std::span<const Reason> reasons, std::uint64_t
       restarts_.restart();
       continue;
     }
-    const std::uint32_t task = choose_task();
+    const LocalTask task = choose_task();
     effort_ += task_count_ / 8;
     if (task != none) {
       trail_.decide(trail_.has_value(task, choose_value(task)));
@@ -169,7 +169,7 @@ Feasibility ConflictSearch::solve(std::span<const Reason> reasons, std::uint64_t
     }
     // All needed tasks are decided, so the performance is exact.
     if (low_task_ == none || !may_reach(low_task_, low_minimum_)) return Feasibility::yes;
-    const std::uint32_t optional = optional_factor();
+    const LocalTask optional = optional_factor();
     if (optional != none) {
       trail_.decide(Trail::runs(optional));
     } else if (!leave_dead_end()) {
@@ -182,8 +182,8 @@ std::vector<ValueId> ConflictSearch::values_of(TaskId task) {
   std::vector<ValueId> values;
   if (!domains_->needed(task - first_task_)) return values;
   static_cast<void>(may_reach(task - first_task_, 0));
-  for (const std::uint32_t each : closure_) {
-    values.push_back(catalog_.values.begin[first_task_ + each] + domains_->best(each));
+  for (const LocalTask each : closure_) {
+    values.emplace_back(catalog_.values.begin[first_task_ + each] + domains_->best(each));
   }
   return values;
 }
@@ -203,7 +203,7 @@ bool ConflictSearch::begin(std::span<const Reason> reasons) {
 
 bool ConflictSearch::demand(const Demand& demand) {
   using Kind = Demand::Kind;
-  const std::uint32_t task = demand.task - first_task_;
+  const LocalTask task = demand.task - first_task_;
   const bool is_about_running = demand.kind == Kind::run || demand.kind == Kind::stop;
   const bool is_ruled_out = demand.kind == Kind::stop || demand.kind == Kind::has_not;
   const Literal literal =
@@ -253,7 +253,7 @@ bool ConflictSearch::propagate(std::span<const Reason> reasons) {
 /// Whether the performance can still reach the minimum. Exact where all that it depends on is
 /// fixed. A required task counts only if it is needed.
 bool ConflictSearch::may_perform(const Reason& reason, std::uint32_t index) {
-  const std::uint32_t task = reason.task - first_task_;
+  const LocalTask task = reason.task - first_task_;
   if (!domains_->needed(task)) return true;
   literals_.clear();
   if (reason.behavior != none) {
@@ -270,19 +270,19 @@ bool ConflictSearch::may_perform(const Reason& reason, std::uint32_t index) {
 }
 
 /// Whether the performance of a needed task may be at least `minimum`.
-bool ConflictSearch::may_reach(std::uint32_t reached, Millionths minimum) {
+bool ConflictSearch::may_reach(LocalTask reached, Millionths minimum) {
   closure_.assign(1, reached);
   std::fill(in_closure_.begin(), in_closure_.end(), 0);
   in_closure_[reached] = 1;
   product_.clear();
   for (std::size_t next = 0; next < closure_.size(); ++next) {
-    const std::uint32_t task = closure_[next];
+    const LocalTask task = closure_[next];
     const Value& best = domains_->value(task, domains_->best(task));
     product_.multiply(best.suitability);
     if (domains_->count(task) > 1) continue;
     effort_ += catalog_.requirements[best.behavior].size();
     for (const CompiledRequirement& requirement : catalog_.requirements[best.behavior]) {
-      const std::uint32_t target = requirement.task - first_task_;
+      const LocalTask target = requirement.task - first_task_;
       if (!domains_->needed(target) || std::exchange(in_closure_[target], 1) != 0) continue;
       closure_.push_back(target);
     }
@@ -298,7 +298,7 @@ bool ConflictSearch::may_reach(std::uint32_t reached, Millionths minimum) {
 /// requires it, if there is one, runs (already in literals_), and all tasks of the closure run with
 /// nothing more suitable.
 void ConflictSearch::explain_performance(const Trail::Cause& cause) {
-  for (const std::uint32_t task : closure_) {
+  for (const LocalTask task : closure_) {
     literals_.push_back(Trail::runs(task));
     const std::uint32_t best = domains_->best(task);
     // Its requirements are in the closure only because no other behavior is left.
@@ -382,13 +382,13 @@ void ConflictSearch::trace_facts(std::span<const Literal> facts) {
 
 /// The undecided needed task that has taken part in most of the recent conflicts; of several the
 /// one with the fewest values.
-std::uint32_t ConflictSearch::choose_task() const {
-  std::uint32_t chosen = none;
-  const auto is_better = [this](std::uint32_t a, std::uint32_t b) {
+LocalTask ConflictSearch::choose_task() const {
+  LocalTask chosen = none;
+  const auto is_better = [this](LocalTask a, LocalTask b) {
     if (activities_[a] != activities_[b]) return activities_[a] > activities_[b];
     return domains_->count(a) < domains_->count(b);
   };
-  for (std::uint32_t task = 0; task < task_count_; ++task) {
+  for (LocalTask task(0); task < task_count_; ++task) {
     if (!domains_->needed(task) || domains_->count(task) < 2) continue;
     if (chosen == none || is_better(task, chosen)) chosen = task;
   }
@@ -396,18 +396,18 @@ std::uint32_t ConflictSearch::choose_task() const {
 }
 
 /// The value chosen last, or else the most suitable one.
-std::uint32_t ConflictSearch::choose_value(std::uint32_t task) {
+std::uint32_t ConflictSearch::choose_value(LocalTask task) {
   std::uint32_t& saved = saved_[task];
   if (saved == none || !domains_->has(task, saved)) saved = domains_->best(task);
   return saved;
 }
 
 /// A task that is not needed, may run, and would count in the performance tested last.
-std::uint32_t ConflictSearch::optional_factor() const {
-  for (const std::uint32_t task : closure_) {
+LocalTask ConflictSearch::optional_factor() const {
+  for (const LocalTask task : closure_) {
     const BehaviorId behavior = domains_->value(task, domains_->best(task)).behavior;
     for (const CompiledRequirement& requirement : catalog_.requirements[behavior]) {
-      const std::uint32_t target = requirement.task - first_task_;
+      const LocalTask target = requirement.task - first_task_;
       if (!domains_->needed(target) && domains_->count(target) > 0) return target;
     }
   }

@@ -22,7 +22,7 @@ namespace cbc {
 /// are listed. Every no-good comes with the constraints that it was derived from.
 class RelaxedTrail final : public Trail {
  public:
-  RelaxedTrail(const CompiledCatalog& catalog, std::uint32_t group, Domains& domains);
+  RelaxedTrail(const CompiledCatalog& catalog, GroupId group, Domains& domains);
 
   /// Begins anew: every task of the group may have any of its values, or none. `reasons`: the
   /// constraints in force; to be kept until the next load.
@@ -61,10 +61,10 @@ class RelaxedTrail final : public Trail {
   };
 
   void index_constraints();
-  [[nodiscard]] bool follow_running(std::uint32_t task) override;
-  [[nodiscard]] bool follow_not_running(std::uint32_t task) override;
-  [[nodiscard]] bool follow_value(std::uint32_t task, ValueId value) override;
-  [[nodiscard]] bool follow_choice(std::uint32_t /*task*/) override { return true; }
+  [[nodiscard]] bool follow_running(LocalTask task) override;
+  [[nodiscard]] bool follow_not_running(LocalTask task) override;
+  [[nodiscard]] bool follow_value(LocalTask task, ValueId value) override;
+  [[nodiscard]] bool follow_choice(LocalTask /*task*/) override { return true; }
 
   const BehaviorId first_behavior_;
   const std::uint32_t behavior_count_;
@@ -88,7 +88,7 @@ enum class Feasibility : std::uint8_t { no, yes, unknown };
 class ConflictSearch {
  public:
   /// `present`: by task of the group, its value index, or none.
-  ConflictSearch(const CompiledCatalog& catalog, std::uint32_t group,
+  ConflictSearch(const CompiledCatalog& catalog, GroupId group,
                  const std::vector<std::uint32_t>& present, Demands demands);
 
   /// Admits only solutions in which `task` runs and its performance is below `minimum`.
@@ -124,7 +124,7 @@ class ConflictSearch {
 
   [[nodiscard]] bool propagate(std::span<const Reason> reasons);
   [[nodiscard]] bool may_perform(const Reason& reason, std::uint32_t index);
-  [[nodiscard]] bool may_reach(std::uint32_t reached, Millionths minimum);
+  [[nodiscard]] bool may_reach(LocalTask reached, Millionths minimum);
   void explain_performance(const Trail::Cause& cause);
 
   [[nodiscard]] bool learn();
@@ -134,9 +134,9 @@ class ConflictSearch {
   void add_reason(std::uint32_t reason);
   void trace_facts(std::span<const Literal> facts);
 
-  [[nodiscard]] std::uint32_t choose_task() const;
-  [[nodiscard]] std::uint32_t choose_value(std::uint32_t task);
-  [[nodiscard]] std::uint32_t optional_factor() const;
+  [[nodiscard]] LocalTask choose_task() const;
+  [[nodiscard]] std::uint32_t choose_value(LocalTask task);
+  [[nodiscard]] LocalTask optional_factor() const;
 
   // Tasks are counted within the group.
   const CompiledCatalog& catalog_;
@@ -144,7 +144,7 @@ class ConflictSearch {
   const Demands demands_;
   const TaskId first_task_;
   const std::uint32_t task_count_;
-  std::uint32_t low_task_ = none;
+  LocalTask low_task_ = none;
   Millionths low_minimum_ = 0;
   std::unique_ptr<Domains> domains_;  ///< stay where they are when the search is moved
   RelaxedTrail trail_;
@@ -166,7 +166,7 @@ class ConflictSearch {
 
   ExactProduct product_;
   ExactProduct minimum_;
-  std::vector<std::uint32_t> closure_;
+  std::vector<LocalTask> closure_;
   std::vector<std::uint8_t> in_closure_;  ///< by task
   std::vector<Literal> literals_;
 };

@@ -13,7 +13,7 @@ std::string_view name_of(Reason::Kind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-RelevantTasks::RelevantTasks(const CompiledCatalog& catalog, std::uint32_t group)
+RelevantTasks::RelevantTasks(const CompiledCatalog& catalog, GroupId group)
     : catalog_(catalog),
       first_task_(catalog.group_tasks[group]),
       is_relevant_(catalog.group_tasks[group + 1] - first_task_, 0) {}

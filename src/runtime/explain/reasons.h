@@ -22,7 +22,7 @@ struct Demand {
     has_not  ///< the task does not run with this value
   };
   Kind kind = Kind::run;
-  TaskId task = 0;
+  TaskId task;
   std::uint32_t value_index = none;
 };
 
@@ -71,7 +71,7 @@ struct Reason {
 /// other tasks can be left at "not running", so no constraint on them belongs to a conflict set.
 class RelevantTasks {
  public:
-  RelevantTasks(const CompiledCatalog& catalog, std::uint32_t group);
+  RelevantTasks(const CompiledCatalog& catalog, GroupId group);
 
   void add(TaskId task);
   /// Adds all that the tasks may require, and puts all into TaskId order. False if these are more

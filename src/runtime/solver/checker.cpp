@@ -7,7 +7,7 @@ namespace cbc {
 Checker::Checker(const CompiledCatalog& catalog)
     : catalog_(catalog),
       clique_marks_(catalog.cliques.size(), 0),
-      clique_holders_(catalog.cliques.size(), 0),
+      clique_holders_(catalog.cliques.size()),
       closure_marks_(catalog.tasks.size(), 0) {}
 
 std::optional<std::string> Checker::find_violation(const Problem& problem,

@@ -35,9 +35,9 @@ class Checker {
 
   const CompiledCatalog& catalog_;
   const Assignment* answer_ = nullptr;
-  TaskId first_task_ = 0;
-  TaskId end_task_ = 0;
-  TaskId violating_ = 0;                      ///< the task that the last violation is about
+  TaskId first_task_;
+  TaskId end_task_;
+  TaskId violating_;                          ///< the task that the last violation is about
   std::uint64_t number_ = 0;                  ///< of the present check; marks what it has seen
   std::vector<std::uint64_t> clique_marks_;   ///< by clique
   std::vector<TaskId> clique_holders_;        ///< by clique: its running task, if marked

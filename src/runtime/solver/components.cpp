@@ -19,8 +19,8 @@ Components::Components(const CompiledCatalog& catalog, const Domains& domains)
       domains_(domains),
       has_zeros_(catalog.group_count(), 0),
       clique_seen_(catalog.cliques.size(), 0),
-      clique_task_(catalog.cliques.size(), 0) {
-  for (TaskId task = 0; task < catalog.tasks.size(); ++task) {
+      clique_task_(catalog.cliques.size()) {
+  for (TaskId task(0); task < catalog.tasks.size(); ++task) {
     for (const Value& value : catalog.values[task]) {
       if (value.suitability == 0) has_zeros_[catalog.tasks[task].group] = 1;
     }
@@ -30,9 +30,9 @@ Components::Components(const CompiledCatalog& catalog, const Domains& domains)
   depth_of_.resize(tasks, 0);
   opened_.resize(tasks, 0);
   open_.reserve(tasks);
-  joined_to_.resize(tasks, 0);
+  joined_to_.resize(tasks);
   behavior_seen_.resize(behaviors, 0);
-  behavior_task_.resize(behaviors, 0);
+  behavior_task_.resize(behaviors);
   reached_.resize(tasks, 0);
   reach_.reserve(tasks);
 }
@@ -44,20 +44,20 @@ void Components::load(const Problem& problem) {
   can_split_ = has_zeros_[problem.group] == 0;
 }
 
-bool Components::enter_component_of(std::uint32_t task) {
+bool Components::enter_component_of(LocalTask task) {
   if (!can_split_ || depth_ == deepest) return false;
   ++number_;
   find_open_tasks();
   join_by_cliques();
   join_by_behaviors();
   join_by_performance();
-  const std::uint32_t root = root_of(task);
-  const bool is_split = std::any_of(open_.begin(), open_.end(), [&](std::uint32_t other) {
+  const LocalTask root = root_of(task);
+  const bool is_split = std::any_of(open_.begin(), open_.end(), [&](LocalTask other) {
     return domains_.needed(other) && root_of(other) != root;
   });
   if (!is_split) return false;
   ++depth_;
-  for (const std::uint32_t other : open_) {
+  for (const LocalTask other : open_) {
     if (root_of(other) == root) depth_of_[other] = depth_;
   }
   return true;
@@ -65,7 +65,7 @@ bool Components::enter_component_of(std::uint32_t task) {
 
 void Components::leave() {
   --depth_;
-  for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
+  for (LocalTask task(0); task < domains_.task_count(); ++task) {
     depth_of_[task] = std::min(depth_of_[task], depth_);
   }
 }
@@ -74,14 +74,14 @@ void Components::leave() {
 /// may become needed through them.
 void Components::find_open_tasks() {
   open_.clear();
-  for (const std::uint32_t task : domains_.needed_tasks()) {
+  for (const LocalTask task : domains_.needed_tasks()) {
     if (domains_.count(task) > 1 && contains(task, depth_)) open(task);
   }
   // NOLINTNEXTLINE(modernize-loop-convert): the list grows
   for (std::size_t next = 0; next < open_.size(); ++next) {
-    const std::uint32_t task = open_[next];
+    const LocalTask task = open_[next];
     for (const Arc& arc : catalog_.arcs[domains_.first_task() + task]) {
-      const std::uint32_t target = arc.target - domains_.first_task();
+      const LocalTask target = arc.target - domains_.first_task();
       if (is_fixed(target) || !may_use(task, arc)) continue;
       open(target);
       join(task, target);
@@ -89,7 +89,7 @@ void Components::find_open_tasks() {
   }
 }
 
-void Components::open(std::uint32_t task) {
+void Components::open(LocalTask task) {
   if (is_open(task)) return;
   opened_[task] = number_;
   joined_to_[task] = task;
@@ -98,7 +98,7 @@ void Components::open(std::uint32_t task) {
 
 /// The rivals of needed tasks are closed already; this is about tasks that may become needed.
 void Components::join_by_cliques() {
-  for (const std::uint32_t task : open_) {
+  for (const LocalTask task : open_) {
     for (const std::uint32_t clique : catalog_.task_cliques[domains_.first_task() + task]) {
       if (clique_seen_[clique] == number_) {
         join(task, clique_task_[clique]);
@@ -112,7 +112,7 @@ void Components::join_by_cliques() {
 
 /// A behavior of several tasks counts as one change in f4, however many of them choose it.
 void Components::join_by_behaviors() {
-  for (const std::uint32_t task : open_) {
+  for (const LocalTask task : open_) {
     for (const std::uint32_t index : domains_.indices(task)) {
       const BehaviorId behavior = domains_.value(task, index).behavior;
       if (catalog_.performs[behavior].size() == 1) continue;
@@ -129,27 +129,27 @@ void Components::join_by_behaviors() {
 
 /// A minimum performance connects all tasks that it may depend on, also through fixed tasks.
 void Components::join_by_performance() {
-  for (const std::uint32_t task : domains_.needed_tasks()) {
+  for (const LocalTask task : domains_.needed_tasks()) {
     if (has_rules(task)) join_reach_of(task);
   }
-  for (const std::uint32_t task : open_) {
+  for (const LocalTask task : open_) {
     if (has_rules(task)) join_reach_of(task);
   }
 }
 
-void Components::join_reach_of(std::uint32_t task) {
+void Components::join_reach_of(LocalTask task) {
   ++reach_number_;
   reach_.assign(1, task);
   reached_[task] = reach_number_;
-  std::uint32_t first_open = none;
+  LocalTask first_open = none;
   for (std::size_t next = 0; next < reach_.size(); ++next) {
-    const std::uint32_t member = reach_[next];
+    const LocalTask member = reach_[next];
     if (is_open(member)) {
       if (first_open == none) first_open = member;
       join(first_open, member);
     }
     for (const Arc& arc : catalog_.arcs[domains_.first_task() + member]) {
-      const std::uint32_t target = arc.target - domains_.first_task();
+      const LocalTask target = arc.target - domains_.first_task();
       if (reached_[target] == reach_number_ || !may_use(member, arc)) continue;
       reached_[target] = reach_number_;
       reach_.push_back(target);
@@ -157,9 +157,9 @@ void Components::join_reach_of(std::uint32_t task) {
   }
 }
 
-void Components::join(std::uint32_t a, std::uint32_t b) { joined_to_[root_of(a)] = root_of(b); }
+void Components::join(LocalTask a, LocalTask b) { joined_to_[root_of(a)] = root_of(b); }
 
-std::uint32_t Components::root_of(std::uint32_t task) {
+LocalTask Components::root_of(LocalTask task) {
   while (joined_to_[task] != task) {
     joined_to_[task] = joined_to_[joined_to_[task]];
     task = joined_to_[task];

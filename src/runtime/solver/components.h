@@ -25,33 +25,33 @@ class Components {
 
   [[nodiscard]] std::uint32_t depth() const { return depth_; }
   /// Whether the task belongs to the component that was entered at `depth`.
-  [[nodiscard]] bool contains(std::uint32_t task, std::uint32_t depth) const {
+  [[nodiscard]] bool contains(LocalTask task, std::uint32_t depth) const {
     return depth_of_[task] >= depth;
   }
 
   /// If the undecided tasks of the present component are in several, enters the one of `task`.
   /// All requests must be decided.
-  [[nodiscard]] bool enter_component_of(std::uint32_t task);
+  [[nodiscard]] bool enter_component_of(LocalTask task);
   void leave();
 
  private:
   void find_open_tasks();
-  void open(std::uint32_t task);
+  void open(LocalTask task);
   void join_by_cliques();
   void join_by_behaviors();
   void join_by_performance();
-  void join_reach_of(std::uint32_t task);
-  void join(std::uint32_t a, std::uint32_t b);
-  [[nodiscard]] std::uint32_t root_of(std::uint32_t task);
-  [[nodiscard]] bool is_open(std::uint32_t task) const { return opened_[task] == number_; }
-  [[nodiscard]] bool is_fixed(std::uint32_t task) const {
+  void join_reach_of(LocalTask task);
+  void join(LocalTask a, LocalTask b);
+  [[nodiscard]] LocalTask root_of(LocalTask task);
+  [[nodiscard]] bool is_open(LocalTask task) const { return opened_[task] == number_; }
+  [[nodiscard]] bool is_fixed(LocalTask task) const {
     return domains_.needed(task) && domains_.count(task) == 1;
   }
   /// Whether a behavior in the domain of the task requires the target of the arc.
-  [[nodiscard]] bool may_use(std::uint32_t task, const Arc& arc) const {
+  [[nodiscard]] bool may_use(LocalTask task, const Arc& arc) const {
     return domains_.any_within(task, &catalog_.masks[arc.mask]);
   }
-  [[nodiscard]] bool has_rules(std::uint32_t task) const {
+  [[nodiscard]] bool has_rules(LocalTask task) const {
     return catalog_.tasks[domains_.first_task() + task].has_performance_rules;
   }
 
@@ -60,18 +60,18 @@ class Components {
   std::vector<std::uint8_t> has_zeros_;  ///< by group: a suitability of 0
   bool can_split_ = true;
   std::uint32_t depth_ = 0;
-  std::vector<std::uint32_t> depth_of_;   ///< by task: of its innermost component
-  std::uint64_t number_ = 0;              ///< of the present decomposition
-  std::vector<std::uint64_t> opened_;     ///< by task
-  std::vector<std::uint32_t> open_;       ///< see find_open_tasks
-  std::vector<std::uint32_t> joined_to_;  ///< by task: towards the root of its component
+  std::vector<std::uint32_t> depth_of_;  ///< by task: of its innermost component
+  std::uint64_t number_ = 0;             ///< of the present decomposition
+  std::vector<std::uint64_t> opened_;    ///< by task
+  std::vector<LocalTask> open_;          ///< see find_open_tasks
+  std::vector<LocalTask> joined_to_;     ///< by task: towards the root of its component
   std::vector<std::uint64_t> clique_seen_;
-  std::vector<std::uint32_t> clique_task_;
+  std::vector<LocalTask> clique_task_;
   std::vector<std::uint64_t> behavior_seen_;  ///< by behavior of the group
-  std::vector<std::uint32_t> behavior_task_;
+  std::vector<LocalTask> behavior_task_;
   std::uint64_t reach_number_ = 0;
   std::vector<std::uint64_t> reached_;  ///< by task
-  std::vector<std::uint32_t> reach_;
+  std::vector<LocalTask> reach_;
 };
 
 }  // namespace cbc

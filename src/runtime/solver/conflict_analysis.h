@@ -106,7 +106,7 @@ class Activities {
     activities_.assign(tasks, 0);
     increment_ = 1;
   }
-  void note(std::uint32_t task) {
+  void note(LocalTask task) {
     activities_[task] += increment_;
     if (activities_[task] < too_large) return;
     for (double& each : activities_) each /= too_large;
@@ -119,7 +119,7 @@ class Activities {
     for (const std::uint32_t variable : variables) note(trail.task_of(variable));
     age();
   }
-  [[nodiscard]] double operator[](std::uint32_t task) const { return activities_[task]; }
+  [[nodiscard]] double operator[](LocalTask task) const { return activities_[task]; }
 
  private:
   static constexpr double growth = 1.05;

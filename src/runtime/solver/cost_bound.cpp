@@ -58,7 +58,7 @@ CostBound::Cost CostBound::bound(const Cost& threshold, Roots roots) {
   ++bound_number_;
   Cost total;
   std::uint64_t steps = 0;
-  for (const std::uint32_t task : domains_.needed_tasks()) {
+  for (const LocalTask task : domains_.needed_tasks()) {
     if (!is_root(task, roots)) continue;
     while (collect_cut(task)) {
       steps += cut_.size();
@@ -70,17 +70,17 @@ CostBound::Cost CostBound::bound(const Cost& threshold, Roots roots) {
   return total;
 }
 
-CostBound::Cost& CostBound::residual(std::uint32_t task, std::uint32_t index) {
+CostBound::Cost& CostBound::residual(LocalTask task, std::uint32_t index) {
   const TaskId first = domains_.first_task();
   return residual_[catalog_.values.begin[first + task] - catalog_.values.begin[first] + index];
 }
 
-CostBound::Cost CostBound::reduced_cost(std::uint32_t task, std::uint32_t index) {
+CostBound::Cost CostBound::reduced_cost(LocalTask task, std::uint32_t index) {
   open(task);
   Cost cost = residual(task, index);
   for (const CompiledRequirement& requirement :
        catalog_.requirements[domains_.value(task, index).behavior]) {
-    const std::uint32_t target = requirement.task - domains_.first_task();
+    const LocalTask target = requirement.task - domains_.first_task();
     if (domains_.needed(target) || is_settled(target)) continue;
     open(target);
     cost += least_residual(target);
@@ -88,13 +88,13 @@ CostBound::Cost CostBound::reduced_cost(std::uint32_t task, std::uint32_t index)
   return cost;
 }
 
-bool CostBound::is_root(std::uint32_t task, Roots roots) const {
+bool CostBound::is_root(LocalTask task, Roots roots) const {
   const std::uint32_t depth = components_.depth();
   if (roots == Roots::in_component) return components_.contains(task, depth);
   return components_.contains(task, depth - 1) && !components_.contains(task, depth);
 }
 
-CostBound::Cost CostBound::least_residual(std::uint32_t task) {
+CostBound::Cost CostBound::least_residual(LocalTask task) {
   Cost cheapest{prohibitive_cost, 0};
   for (const std::uint32_t index : domains_.indices(task)) {
     cheapest = std::min(cheapest, residual(task, index));
@@ -102,7 +102,7 @@ CostBound::Cost CostBound::least_residual(std::uint32_t task) {
   return cheapest;
 }
 
-void CostBound::open(std::uint32_t task) {
+void CostBound::open(LocalTask task) {
   if (opened_[task] == bound_number_) return;
   opened_[task] = bound_number_;
   const std::int64_t idle = catalog_.tasks[domains_.first_task() + task].start_on_request ? 0 : 1;
@@ -113,19 +113,19 @@ void CostBound::open(std::uint32_t task) {
   }
 }
 
-bool CostBound::is_settled(std::uint32_t task) const { return settled_[task] == bound_number_; }
+bool CostBound::is_settled(LocalTask task) const { return settled_[task] == bound_number_; }
 
 /// Collects the tasks that keep the root from running at no residual cost: each of their values
 /// has a residual cost or a requirement in the cut. False, and no cut, if the root is settled.
-bool CostBound::collect_cut(std::uint32_t root) {
+bool CostBound::collect_cut(LocalTask root) {
   if (is_settled(root)) return false;
   ++cut_number_;
   cut_.clear();
   visits_.clear();
   begin_visit(root);
   while (!visits_.empty()) {
-    const std::uint32_t task = visits_.back().task;
-    std::uint32_t target = none;
+    const LocalTask task = visits_.back().task;
+    LocalTask target = none;
     switch (advance(visits_.back(), target)) {
       case Step::descend:
         begin_visit(target);
@@ -144,7 +144,7 @@ bool CostBound::collect_cut(std::uint32_t root) {
   return !is_settled(root);
 }
 
-void CostBound::begin_visit(std::uint32_t task) {
+void CostBound::begin_visit(LocalTask task) {
   open(task);
   in_cut_[task] = cut_number_;
   visits_.push_back({task, 0, 0});
@@ -152,7 +152,7 @@ void CostBound::begin_visit(std::uint32_t task) {
 
 /// Looks for a value of no residual cost whose requirements are all settled. Stops at the first
 /// requirement not yet visited in this cut, the `target`.
-CostBound::Step CostBound::advance(Visit& visit, std::uint32_t& target) {
+CostBound::Step CostBound::advance(Visit& visit, LocalTask& target) {
   const auto values = domains_.values(visit.task);
   for (; visit.index < values.size(); ++visit.index, visit.requirement = 0) {
     if (!domains_.has(visit.task, visit.index) || residual(visit.task, visit.index) > Cost{})
@@ -179,13 +179,13 @@ bool CostBound::requires_cut(const Value& value) const {
 /// Subtracts the cut's minimum from its arcs, and returns it.
 CostBound::Cost CostBound::subtract_cut_minimum() {
   Cost cheapest{INT64_MAX, 0};
-  for (const std::uint32_t task : cut_) {
+  for (const LocalTask task : cut_) {
     for (const std::uint32_t index : domains_.indices(task)) {
       const Cost& cost = residual(task, index);
       if (cost < cheapest && !requires_cut(domains_.value(task, index))) cheapest = cost;
     }
   }
-  for (const std::uint32_t task : cut_) {
+  for (const LocalTask task : cut_) {
     for (const std::uint32_t index : domains_.indices(task)) {
       if (!requires_cut(domains_.value(task, index))) residual(task, index) -= cheapest;
     }

@@ -41,27 +41,27 @@ class CostBound {
 
   /// After a bound that did not exceed its threshold: an estimate of what a value of the domain
   /// costs beyond the bound. 0 for the values that the bound assumes.
-  [[nodiscard]] Cost reduced_cost(std::uint32_t task, std::uint32_t index);
+  [[nodiscard]] Cost reduced_cost(LocalTask task, std::uint32_t index);
 
  private:
   /// A task on the path down from the root of a cut.
   struct Visit {
-    std::uint32_t task = 0;
+    LocalTask task;
     std::uint32_t index = 0;        ///< of its value under consideration
     std::uint32_t requirement = 0;  ///< of that value
   };
   enum class Step : std::uint8_t { descend, settled, cut };
 
-  [[nodiscard]] bool is_root(std::uint32_t task, Roots roots) const;
-  [[nodiscard]] Cost least_residual(std::uint32_t task);
-  void open(std::uint32_t task);
-  [[nodiscard]] bool is_settled(std::uint32_t task) const;
-  [[nodiscard]] bool collect_cut(std::uint32_t root);
-  [[nodiscard]] Step advance(Visit& visit, std::uint32_t& target);
-  void begin_visit(std::uint32_t task);
+  [[nodiscard]] bool is_root(LocalTask task, Roots roots) const;
+  [[nodiscard]] Cost least_residual(LocalTask task);
+  void open(LocalTask task);
+  [[nodiscard]] bool is_settled(LocalTask task) const;
+  [[nodiscard]] bool collect_cut(LocalTask root);
+  [[nodiscard]] Step advance(Visit& visit, LocalTask& target);
+  void begin_visit(LocalTask task);
   [[nodiscard]] bool requires_cut(const Value& value) const;
   [[nodiscard]] Cost subtract_cut_minimum();
-  [[nodiscard]] Cost& residual(std::uint32_t task, std::uint32_t index);
+  [[nodiscard]] Cost& residual(LocalTask task, std::uint32_t index);
 
   const CompiledCatalog& catalog_;
   const Domains& domains_;
@@ -71,7 +71,7 @@ class CostBound {
   std::vector<std::uint64_t>
       settled_;                        ///< by task: last bound in which it runs at no residual cost
   std::vector<std::uint64_t> in_cut_;  ///< by task: last cut it was in
-  std::vector<std::uint32_t> cut_;
+  std::vector<LocalTask> cut_;
   std::vector<Visit> visits_;
   std::uint64_t bound_number_ = 0;
   std::uint64_t cut_number_ = 0;

@@ -16,7 +16,7 @@ std::uint32_t count_bits(std::uint64_t word) {
 Domains::Domains(const CompiledCatalog& catalog)
     : Domains(catalog, most_in_a_group(catalog.group_tasks), most_values_in_a_group(catalog)) {}
 
-Domains::Domains(const CompiledCatalog& catalog, std::uint32_t group)
+Domains::Domains(const CompiledCatalog& catalog, GroupId group)
     : Domains(catalog, catalog.group_tasks[group + 1] - catalog.group_tasks[group],
               catalog.values.begin[catalog.group_tasks[group + 1]] -
                   catalog.values.begin[catalog.group_tasks[group]]) {}
@@ -30,7 +30,7 @@ Domains::Domains(const CompiledCatalog& catalog, std::size_t most_tasks, std::si
   trail_.reserve(most_variables_);  // each value, and each "not running", leaves once
 }
 
-void Domains::load(std::uint32_t group, std::span<const std::uint64_t> words) {
+void Domains::load(GroupId group, std::span<const std::uint64_t> words) {
   first_task_ = catalog_.group_tasks[group];
   first_behavior_ = catalog_.group_behaviors[group];
   task_count_ = catalog_.group_tasks[group + 1] - first_task_;
@@ -41,7 +41,7 @@ void Domains::load(std::uint32_t group, std::span<const std::uint64_t> words) {
   sums_ = {};
 
   const std::uint32_t first_word = catalog_.words[first_task_];
-  for (std::uint32_t task = 0; task < task_count_; ++task) {
+  for (LocalTask task(0); task < task_count_; ++task) {
     const TaskId id = first_task_ + task;
     TaskState& state = tasks_[task];
     state.values = catalog_.values.items.data() + catalog_.values.begin[id];
@@ -60,7 +60,7 @@ void Domains::load(std::uint32_t group, std::span<const std::uint64_t> words) {
   }
 }
 
-bool Domains::all_within(std::uint32_t task, const std::uint64_t* mask) const {
+bool Domains::all_within(LocalTask task, const std::uint64_t* mask) const {
   const TaskState& state = tasks_[task];
   for (std::uint32_t word = 0; word < state.word_count; ++word) {
     if ((words_[state.word + word] & ~mask[word]) != 0) return false;
@@ -68,7 +68,7 @@ bool Domains::all_within(std::uint32_t task, const std::uint64_t* mask) const {
   return true;
 }
 
-bool Domains::any_within(std::uint32_t task, const std::uint64_t* mask) const {
+bool Domains::any_within(LocalTask task, const std::uint64_t* mask) const {
   const TaskState& state = tasks_[task];
   for (std::uint32_t word = 0; word < state.word_count; ++word) {
     if ((words_[state.word + word] & mask[word]) != 0) return true;
@@ -76,7 +76,7 @@ bool Domains::any_within(std::uint32_t task, const std::uint64_t* mask) const {
   return false;
 }
 
-bool Domains::need(std::uint32_t task) {
+bool Domains::need(LocalTask task) {
   TaskState& state = tasks_[task];
   if (!state.may_stop) return true;
   if (state.count == 0) return false;
@@ -89,7 +89,7 @@ bool Domains::need(std::uint32_t task) {
   return true;
 }
 
-bool Domains::close(std::uint32_t task) {
+bool Domains::close(LocalTask task) {
   if (!tasks_[task].may_stop) return false;
   const TaskState& state = tasks_[task];
   for (std::uint32_t word = state.word; word < state.word + state.word_count; ++word) {
@@ -98,12 +98,12 @@ bool Domains::close(std::uint32_t task) {
   return true;
 }
 
-bool Domains::remove(std::uint32_t task, std::uint32_t index) {
+bool Domains::remove(LocalTask task, std::uint32_t index) {
   const std::uint32_t word = tasks_[task].word + index / 64;
   return narrow(task, word, words_[word] & ~(std::uint64_t{1} << (index % 64)));
 }
 
-bool Domains::remove_all(std::uint32_t task, const std::uint64_t* mask) {
+bool Domains::remove_all(LocalTask task, const std::uint64_t* mask) {
   const TaskState& state = tasks_[task];
   for (std::uint32_t word = 0; word < state.word_count; ++word) {
     if (!narrow(task, state.word + word, words_[state.word + word] & ~mask[word])) return false;
@@ -111,7 +111,7 @@ bool Domains::remove_all(std::uint32_t task, const std::uint64_t* mask) {
   return true;
 }
 
-bool Domains::keep_only(std::uint32_t task, std::uint32_t index) {
+bool Domains::keep_only(LocalTask task, std::uint32_t index) {
   const TaskState& state = tasks_[task];
   const std::uint32_t kept = state.word + index / 64;
   for (std::uint32_t word = state.word; word < state.word + state.word_count; ++word) {
@@ -123,7 +123,7 @@ bool Domains::keep_only(std::uint32_t task, std::uint32_t index) {
   return true;
 }
 
-bool Domains::narrow(std::uint32_t task, std::uint32_t word, std::uint64_t after) {
+bool Domains::narrow(LocalTask task, std::uint32_t word, std::uint64_t after) {
   const std::uint64_t before = words_[word];
   if (before == after) return true;
   TaskState& state = tasks_[task];
@@ -166,15 +166,15 @@ void Domains::undo_to(const Mark& mark) {
   forget_changes();
 }
 
-std::uint32_t Domains::next_changed() {
-  const std::uint32_t task = changed_.back();
+LocalTask Domains::next_changed() {
+  const LocalTask task = changed_.back();
   changed_.pop_back();
   tasks_[task].is_changed = false;
   return task;
 }
 
 void Domains::forget_changes() {
-  for (const std::uint32_t task : changed_) tasks_[task].is_changed = false;
+  for (const LocalTask task : changed_) tasks_[task].is_changed = false;
   changed_.clear();
 }
 
@@ -197,7 +197,7 @@ void Domains::find_best(TaskState& state) const {
   }
 }
 
-void Domains::note_change(std::uint32_t task) {
+void Domains::note_change(LocalTask task) {
   TaskState& state = tasks_[task];
   if (state.is_changed) return;
   state.is_changed = true;

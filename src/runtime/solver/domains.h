@@ -64,11 +64,11 @@ class Domains {
 
   explicit Domains(const CompiledCatalog& catalog);
   /// For one group only.
-  Domains(const CompiledCatalog& catalog, std::uint32_t group);
+  Domains(const CompiledCatalog& catalog, GroupId group);
 
   void load(const Problem& problem) { load(problem.group, problem.domains); }
   /// `words`: the domains, as those of a Problem.
-  void load(std::uint32_t group, std::span<const std::uint64_t> words);
+  void load(GroupId group, std::span<const std::uint64_t> words);
 
   /// Tasks and values of the largest group that it can load.
   [[nodiscard]] std::size_t most_variables() const { return most_variables_; }
@@ -76,59 +76,59 @@ class Domains {
   [[nodiscard]] TaskId first_task() const { return first_task_; }
   [[nodiscard]] BehaviorId first_behavior() const { return first_behavior_; }
 
-  [[nodiscard]] bool may_stop(std::uint32_t task) const { return tasks_[task].may_stop; }
-  [[nodiscard]] bool needed(std::uint32_t task) const { return !tasks_[task].may_stop; }
+  [[nodiscard]] bool may_stop(LocalTask task) const { return tasks_[task].may_stop; }
+  [[nodiscard]] bool needed(LocalTask task) const { return !tasks_[task].may_stop; }
   /// Number of behaviors in the domain.
-  [[nodiscard]] std::uint32_t count(std::uint32_t task) const { return tasks_[task].count; }
+  [[nodiscard]] std::uint32_t count(LocalTask task) const { return tasks_[task].count; }
   /// Value index of the most suitable behavior in the domain; needs count > 0.
-  [[nodiscard]] std::uint32_t best(std::uint32_t task) const { return tasks_[task].best; }
-  [[nodiscard]] bool has(std::uint32_t task, std::uint32_t index) const {
+  [[nodiscard]] std::uint32_t best(LocalTask task) const { return tasks_[task].best; }
+  [[nodiscard]] bool has(LocalTask task, std::uint32_t index) const {
     return has_bit(&words_[tasks_[task].word], index);
   }
   /// The value indices of the behaviors in the domain.
-  [[nodiscard]] Bits indices(std::uint32_t task) const {
+  [[nodiscard]] Bits indices(LocalTask task) const {
     return {words_.data() + tasks_[task].word, tasks_[task].value_count};
   }
   /// First word of the task among those of the group.
-  [[nodiscard]] std::uint32_t word_begin(std::uint32_t task) const { return tasks_[task].word; }
-  [[nodiscard]] const Value& value(std::uint32_t task, std::uint32_t index) const {
+  [[nodiscard]] std::uint32_t word_begin(LocalTask task) const { return tasks_[task].word; }
+  [[nodiscard]] const Value& value(LocalTask task, std::uint32_t index) const {
     return tasks_[task].values[index];
   }
-  [[nodiscard]] std::span<const Value> values(std::uint32_t task) const {
+  [[nodiscard]] std::span<const Value> values(LocalTask task) const {
     return {tasks_[task].values, tasks_[task].value_count};
   }
   /// Whether all behaviors in the domain are among those of `mask` (words as those of the task).
-  [[nodiscard]] bool all_within(std::uint32_t task, const std::uint64_t* mask) const;
+  [[nodiscard]] bool all_within(LocalTask task, const std::uint64_t* mask) const;
   /// Whether any of them is.
-  [[nodiscard]] bool any_within(std::uint32_t task, const std::uint64_t* mask) const;
+  [[nodiscard]] bool any_within(LocalTask task, const std::uint64_t* mask) const;
 
-  [[nodiscard]] const std::vector<std::uint32_t>& needed_tasks() const { return needed_; }
+  [[nodiscard]] const std::vector<LocalTask>& needed_tasks() const { return needed_; }
   [[nodiscard]] const Sums& sums() const { return sums_; }
 
   // Changes. Each returns false if a needed task has no behavior left.
 
   /// Takes "not running" out of the domain.
-  [[nodiscard]] bool need(std::uint32_t task);
+  [[nodiscard]] bool need(LocalTask task);
   /// Takes all behaviors out of the domain.
-  [[nodiscard]] bool close(std::uint32_t task);
-  [[nodiscard]] bool remove(std::uint32_t task, std::uint32_t index);
-  [[nodiscard]] bool remove_all(std::uint32_t task, const std::uint64_t* mask);
+  [[nodiscard]] bool close(LocalTask task);
+  [[nodiscard]] bool remove(LocalTask task, std::uint32_t index);
+  [[nodiscard]] bool remove_all(LocalTask task, const std::uint64_t* mask);
   /// Leaves one behavior; "not running", if it is in the domain, stays.
-  [[nodiscard]] bool keep_only(std::uint32_t task, std::uint32_t index);
-  [[nodiscard]] bool assign(std::uint32_t task, std::uint32_t index) {
+  [[nodiscard]] bool keep_only(LocalTask task, std::uint32_t index);
+  [[nodiscard]] bool assign(LocalTask task, std::uint32_t index) {
     return keep_only(task, index) && need(task);
   }
 
   [[nodiscard]] Mark mark() const { return {trail_.size(), needed_.size(), sums_}; }
   void undo_to(const Mark& mark);
   /// The task of a change, counted as the trail of a Mark is.
-  [[nodiscard]] std::uint32_t changed_task(std::size_t change) const { return trail_[change].task; }
+  [[nodiscard]] LocalTask changed_task(std::size_t change) const { return trail_[change].task; }
 
   // Tasks whose change may matter to others: needed ones that changed, and those with no behavior
   // left.
 
   [[nodiscard]] bool has_changed() const { return !changed_.empty(); }
-  [[nodiscard]] std::uint32_t next_changed();
+  [[nodiscard]] LocalTask next_changed();
   void forget_changes();
 
  private:
@@ -144,28 +144,28 @@ class Domains {
     bool is_changed = false;
   };
   struct Change {
-    std::uint32_t task = 0;
+    LocalTask task;
     std::uint32_t word = 0;  ///< or none: "not running" left the domain
     std::uint64_t before = 0;
   };
 
   Domains(const CompiledCatalog& catalog, std::size_t most_tasks, std::size_t most_values);
 
-  [[nodiscard]] bool narrow(std::uint32_t task, std::uint32_t word, std::uint64_t after);
+  [[nodiscard]] bool narrow(LocalTask task, std::uint32_t word, std::uint64_t after);
   void add_share(const Value& best, std::int32_t times);
   void find_best(TaskState& state) const;
-  void note_change(std::uint32_t task);
+  void note_change(LocalTask task);
 
   const CompiledCatalog& catalog_;
   const std::size_t most_variables_;
   std::uint32_t task_count_ = 0;
-  TaskId first_task_ = 0;
-  BehaviorId first_behavior_ = 0;
+  TaskId first_task_;
+  BehaviorId first_behavior_;
   std::vector<TaskState> tasks_;
   std::vector<std::uint64_t> words_;
-  std::vector<std::uint32_t> needed_;
+  std::vector<LocalTask> needed_;
   std::vector<Change> trail_;
-  std::vector<std::uint32_t> changed_;
+  std::vector<LocalTask> changed_;
   Sums sums_;
 };
 

@@ -38,7 +38,7 @@ void LandmarkBound::load() {
   value_begin_.clear();
   requirement_begin_.clear();
   requirements_.clear();
-  for (std::uint32_t task = 0; task < tasks; ++task) {
+  for (LocalTask task(0); task < tasks; ++task) {
     value_begin_.push_back(static_cast<std::uint32_t>(requirement_begin_.size()));
     for (const Value& value : domains_.values(task)) {
       requirement_begin_.push_back(static_cast<std::uint32_t>(requirements_.size()));
@@ -71,7 +71,7 @@ void LandmarkBound::set_measure(Measure measure) {
   measure_ = measure;
   costs_.clear();
   highest_cost_ = 0;
-  for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
+  for (LocalTask task(0); task < domains_.task_count(); ++task) {
     const bool is_idle = catalog_.tasks[domains_.first_task() + task].start_on_request == 0;
     for (const Value& value : domains_.values(task)) {
       std::int64_t cost = value.suitability == 0 ? prohibitive_cost : value.cost;
@@ -88,20 +88,20 @@ void LandmarkBound::find_relevant_tasks() {
   const TaskId first = domains_.first_task();
   ++cut_number_;
   relevant_.clear();
-  const auto add_task = [this](std::uint32_t task) {
+  const auto add_task = [this](LocalTask task) {
     if (in_cut_[task] == cut_number_) return;
     in_cut_[task] = cut_number_;
     relevant_.push_back(task);
   };
-  for (const std::uint32_t task : domains_.needed_tasks()) add_task(task);
-  for (const std::uint32_t task : trail_.requests()) add_task(task);
+  for (const LocalTask task : domains_.needed_tasks()) add_task(task);
+  for (const LocalTask task : trail_.requests()) add_task(task);
   // NOLINTNEXTLINE(modernize-loop-convert): the list grows
   for (std::size_t next = 0; next < relevant_.size(); ++next) {
     for (const cbc::Arc& arc : catalog_.arcs[first + relevant_[next]]) add_task(arc.target - first);
   }
   order_.clear();
   for (std::uint32_t place = 0; place < domains_.task_count(); ++place) {
-    const std::uint32_t task = catalog_.topological_order[first + place] - first;
+    const LocalTask task = catalog_.topological_order[first + place] - first;
     if (in_cut_[task] != cut_number_) continue;
     places_[task] = static_cast<std::uint32_t>(order_.size());
     order_.push_back(task);
@@ -131,13 +131,13 @@ void LandmarkBound::start_ascent() {
   candidates_.clear();
   targets_.clear();
   find_reached_tasks();
-  for (const std::uint32_t task : order_) {
+  for (const LocalTask task : order_) {
     if (is_reached_[task] != 0) add_candidates(task);
   }
 }
 
 /// Finds the height of a task from those of the tasks that it may require.
-void LandmarkBound::add_candidates(std::uint32_t task) {
+void LandmarkBound::add_candidates(LocalTask task) {
   const auto first = static_cast<std::uint32_t>(candidates_.size());
   const std::uint32_t begin = value_begin_[task];
   const std::uint32_t end = value_begin_[task + 1];
@@ -149,7 +149,7 @@ void LandmarkBound::add_candidates(std::uint32_t task) {
     candidate.task = task;
     candidate.first_target = static_cast<std::uint32_t>(targets_.size());
     for (std::uint32_t at = requirement_begin_[value]; at < requirement_begin_[value + 1]; ++at) {
-      const std::uint32_t target = requirements_[at];
+      const LocalTask target = requirements_[at];
       if (seen_heights_[target] > 0) targets_.push_back(target);
     }
     candidate.end_target = static_cast<std::uint32_t>(targets_.size());
@@ -170,9 +170,9 @@ void LandmarkBound::add_candidates(std::uint32_t task) {
 /// The tasks that the needed ones may still require.
 void LandmarkBound::find_reached_tasks() {
   std::fill(is_reached_.begin(), is_reached_.end(), std::uint8_t{0});
-  for (const std::uint32_t task : domains_.needed_tasks()) is_reached_[task] = 1;
+  for (const LocalTask task : domains_.needed_tasks()) is_reached_[task] = 1;
   for (auto at = order_.rbegin(); at != order_.rend(); ++at) {
-    const std::uint32_t task = *at;
+    const LocalTask task = *at;
     if (is_reached_[task] == 0) continue;
     for (const std::uint32_t index : domains_.indices(task)) {
       const std::uint32_t value = value_begin_[task] + index;
@@ -191,7 +191,7 @@ std::int64_t LandmarkBound::ascend(std::int64_t threshold, const SearchBudget& b
   next_check_ = steps_;
   bool must_end = false;
   while (bound_ <= threshold && !must_end && sort_unsettled()) {
-    for (const std::uint32_t root : unsettled_) {
+    for (const LocalTask root : unsettled_) {
       must_end = has_to_end(budget, last_step);
       if (bound_ > threshold || must_end) break;
       if (find_cut(root)) subtract_cut(root);
@@ -214,7 +214,7 @@ std::int64_t LandmarkBound::bound_again() {
   return ascend(INT64_MAX, {}, most_steps);
 }
 
-void LandmarkBound::mark(std::uint32_t task) {
+void LandmarkBound::mark(LocalTask task) {
   const std::uint32_t place = places_[task];
   marked_[place / 64] |= std::uint64_t{1} << (place % 64);
   first_marked_ = std::min<std::size_t>(first_marked_, place / 64);
@@ -226,7 +226,7 @@ void LandmarkBound::update_heights() {
     while (marked_[word] != 0) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(marked_[word]));
       marked_[word] &= marked_[word] - 1;
-      const std::uint32_t task = order_[64 * word + bit];
+      const LocalTask task = order_[64 * word + bit];
       if (domains_.needed(task)) continue;
       seen_heights_[task] = heights_[task];
       std::uint32_t number = std::exchange(first_supported_[task], none);
@@ -251,10 +251,10 @@ void LandmarkBound::lower(const Candidate& candidate) {
 
 void LandmarkBound::find_supporter(std::uint32_t number) {
   Candidate& candidate = candidates_[number];
-  std::uint32_t highest = none;
+  LocalTask highest = none;
   std::int64_t height = 0;
   for (std::uint32_t at = candidate.first_target; at < candidate.end_target; ++at) {
-    const std::uint32_t target = targets_[at];
+    const LocalTask target = targets_[at];
     if (seen_heights_[target] <= height) continue;
     highest = target;
     height = seen_heights_[target];
@@ -265,7 +265,7 @@ void LandmarkBound::find_supporter(std::uint32_t number) {
   first_supported_[highest] = number;
 }
 
-std::int64_t LandmarkBound::estimate(std::uint32_t task, std::uint32_t index) const {
+std::int64_t LandmarkBound::estimate(LocalTask task, std::uint32_t index) const {
   const std::uint32_t value = value_begin_[task] + index;
   std::int64_t cost = residuals_[value];
   for (std::uint32_t at = requirement_begin_[value]; at < requirement_begin_[value + 1]; ++at) {
@@ -276,7 +276,7 @@ std::int64_t LandmarkBound::estimate(std::uint32_t task, std::uint32_t index) co
 
 /// The highest comes first. False if all needed tasks can run at no residual cost.
 bool LandmarkBound::sort_unsettled() {
-  std::erase_if(unsettled_, [this](std::uint32_t task) { return heights_[task] == 0; });
+  std::erase_if(unsettled_, [this](LocalTask task) { return heights_[task] == 0; });
   std::sort(unsettled_.begin(), unsettled_.end(), [this](std::uint32_t a, std::uint32_t b) {
     return heights_[a] != heights_[b] ? heights_[a] > heights_[b] : a < b;
   });
@@ -286,12 +286,12 @@ bool LandmarkBound::sort_unsettled() {
 
 /// Collects the tasks that keep the root from running at no residual cost. False if, after earlier
 /// cuts of the round, nothing does.
-bool LandmarkBound::find_cut(std::uint32_t root) {
+bool LandmarkBound::find_cut(LocalTask root) {
   ++cut_number_;
   cut_.assign(1, root);
   in_cut_[root] = cut_number_;
   for (std::size_t next = 0; next < cut_.size(); ++next) {
-    const std::uint32_t task = cut_[next];
+    const LocalTask task = cut_[next];
     ++steps_;
     for (std::uint32_t number = candidates_begin_[task]; number < candidates_end_[task]; ++number) {
       const Candidate& candidate = candidates_[number];
@@ -315,10 +315,10 @@ bool LandmarkBound::requires_cut(const Candidate& candidate) const {
 
 /// Subtracts the cut's minimum from its arcs, and adds it to the bound. A removed value that costs
 /// no less than the minimum might as well be there; otherwise the minimum rests on its removal.
-void LandmarkBound::subtract_cut(std::uint32_t root) {
+void LandmarkBound::subtract_cut(LocalTask root) {
   arcs_.clear();
   std::int64_t amount = prohibitive_cost;
-  for (const std::uint32_t task : cut_) {
+  for (const LocalTask task : cut_) {
     for (std::uint32_t number = candidates_begin_[task]; number < candidates_end_[task]; ++number) {
       const Candidate& candidate = candidates_[number];
       if (requires_cut(candidate)) continue;

@@ -48,13 +48,13 @@ class LandmarkBound {
   // After raise(), which did not exceed its threshold:
 
   /// By how much the bound would grow at least if the task had this value.
-  [[nodiscard]] std::int64_t residual(std::uint32_t task, std::uint32_t index) const {
+  [[nodiscard]] std::int64_t residual(LocalTask task, std::uint32_t index) const {
     return residuals_[value_begin_[task] + index];
   }
   /// An estimate of what a value of the domain costs beyond the bound.
-  [[nodiscard]] std::int64_t estimate(std::uint32_t task, std::uint32_t index) const;
+  [[nodiscard]] std::int64_t estimate(LocalTask task, std::uint32_t index) const;
   /// The tasks that needed ones may require.
-  [[nodiscard]] const std::vector<std::uint32_t>& relevant_tasks() const { return relevant_; }
+  [[nodiscard]] const std::vector<LocalTask>& relevant_tasks() const { return relevant_; }
   /// The highest initial cost of a value.
   [[nodiscard]] std::int64_t highest_cost() const { return highest_cost_; }
 
@@ -71,7 +71,7 @@ class LandmarkBound {
  private:
   struct Cut {
     std::int64_t amount = 0;
-    std::uint32_t root = 0;
+    LocalTask root;
     std::uint32_t level = 0;       ///< highest of its root and grounds
     std::size_t first_ground = 0;  ///< in grounds_, up to that of the next cut
   };
@@ -84,12 +84,12 @@ class LandmarkBound {
   /// A value of a task that needed ones may require: only these can be arcs.
   struct Candidate {
     std::uint32_t value = 0;
-    std::uint32_t task = 0;
+    LocalTask task;
     std::uint32_t first_target = 0;  ///< in targets_: the required tasks with a height
     std::uint32_t end_target = 0;
-    std::uint32_t supporter = none;  ///< the highest of them; none if none has a height any more
-    std::uint32_t next = none;       ///< the next candidate with the same supporter
-    bool is_removed = false;         ///< from the domain; then it has no supporter
+    LocalTask supporter = none;  ///< the highest of them; none if none has a height any more
+    std::uint32_t next = none;   ///< the next candidate with the same supporter
+    bool is_removed = false;     ///< from the domain; then it has no supporter
   };
   struct LevelMark {
     std::size_t cuts = 0;
@@ -104,18 +104,18 @@ class LandmarkBound {
   std::int64_t ascend(std::int64_t threshold, const SearchBudget& budget, std::uint64_t steps);
   [[nodiscard]] bool has_to_end(const SearchBudget& budget, std::uint64_t last_step);
   void find_reached_tasks();
-  void add_candidates(std::uint32_t task);
-  void mark(std::uint32_t task);
+  void add_candidates(LocalTask task);
+  void mark(LocalTask task);
   void update_heights();
   void lower(const Candidate& candidate);
   void find_supporter(std::uint32_t number);
   [[nodiscard]] std::int64_t height_of(const Candidate& candidate) const {
-    const std::uint32_t supporter = candidate.supporter;
+    const LocalTask supporter = candidate.supporter;
     return residuals_[candidate.value] + (supporter == none ? 0 : seen_heights_[supporter]);
   }
   [[nodiscard]] bool sort_unsettled();
-  [[nodiscard]] bool find_cut(std::uint32_t root);
-  void subtract_cut(std::uint32_t root);
+  [[nodiscard]] bool find_cut(LocalTask root);
+  void subtract_cut(LocalTask root);
   [[nodiscard]] bool requires_cut(const Candidate& candidate) const;
   [[nodiscard]] Grounds present_grounds(std::int64_t slack) const {
     return {first_cut_, static_cast<std::uint32_t>(cuts_.size()), slack};
@@ -129,9 +129,9 @@ class LandmarkBound {
   // The group. Values are counted within it.
   std::vector<std::uint32_t> value_begin_;        ///< by task, and the end
   std::vector<std::uint32_t> requirement_begin_;  ///< by value, and the end
-  std::vector<std::uint32_t> requirements_;       ///< tasks
-  std::vector<std::uint32_t> relevant_;
-  std::vector<std::uint32_t> order_;   ///< relevant tasks in topological order
+  std::vector<LocalTask> requirements_;           ///< tasks
+  std::vector<LocalTask> relevant_;
+  std::vector<LocalTask> order_;       ///< relevant tasks in topological order
   std::vector<std::uint32_t> places_;  ///< by task: its place in order_
   std::vector<std::int64_t> costs_;    ///< by value
   std::int64_t highest_cost_ = 0;
@@ -143,13 +143,13 @@ class LandmarkBound {
   std::vector<std::uint8_t> is_reached_;  ///< by task: whether needed ones may require it
   std::vector<std::int64_t> residuals_;   ///< by value: cost that no cut has charged
   std::vector<Candidate> candidates_;
-  std::vector<std::uint32_t> targets_;
+  std::vector<LocalTask> targets_;
   std::vector<std::uint32_t> candidates_begin_;  ///< by task that is reached, in candidates_
   std::vector<std::uint32_t> candidates_end_;
   std::vector<std::uint32_t> first_supported_;  ///< by task: the first candidate it supports
   std::vector<std::int64_t> heights_;           ///< by task
   std::vector<std::int64_t> seen_heights_;      ///< by task: as those see it that require it
-  std::vector<std::uint32_t> unsettled_;        ///< needed tasks that had a height before the round
+  std::vector<LocalTask> unsettled_;            ///< needed tasks that had a height before the round
   std::vector<std::uint64_t> marked_;           ///< bit set of places: tasks whose height has sunk
   std::size_t first_marked_ = SIZE_MAX;         ///< no word of marked_ before this one is set
   std::int64_t bound_ = 0;
@@ -157,7 +157,7 @@ class LandmarkBound {
   std::uint64_t next_check_ = 0;  ///< the step to look at the clock
 
   // The last cut.
-  std::vector<std::uint32_t> cut_;
+  std::vector<LocalTask> cut_;
   std::vector<std::uint64_t> in_cut_;  ///< by task: number of the last cut it was in
   std::uint64_t cut_number_ = 0;
   std::vector<std::uint32_t> arcs_;  ///< candidates that require no task of the cut

@@ -118,37 +118,37 @@ void LearningSearch::restart() {
 /// The next literal to decide; none if all is decided that a best solution may contain. Requests
 /// come first, the most important one first.
 Literal LearningSearch::decide(const Incumbent& best, const SearchBudget& budget) {
-  for (const std::uint32_t task : problem_->requests) {
+  for (const LocalTask task : problem_->requests) {
     const Literal runs = Trail::runs(task);
     if (!trail_.is_true(runs) && !trail_.is_false(runs)) return runs;
   }
-  const std::uint32_t task = choose_task(best);
+  const LocalTask task = choose_task(best);
   return task == none ? none : trail_.has_value(task, choose_value(task, best, budget));
 }
 
 /// Before the first solution: the undecided needed task that has taken part in most of the recent
 /// conflicts. After it: one of the highest level, since what a task requires hardly costs anything
 /// in the bound until it is known.
-std::uint32_t LearningSearch::choose_task(const Incumbent& best) const {
-  std::uint32_t chosen = none;
-  const auto level_of = [this](std::uint32_t task) {
+LocalTask LearningSearch::choose_task(const Incumbent& best) const {
+  LocalTask chosen = none;
+  const auto level_of = [this](LocalTask task) {
     return catalog_.tasks[domains_.first_task() + task].level;
   };
-  const auto is_better = [&](std::uint32_t task) {
+  const auto is_better = [&](LocalTask task) {
     const bool is_more_active = activities_[task] > activities_[chosen];
     if (level_of(task) == level_of(chosen)) return is_more_active;
     const bool is_higher = level_of(task) > level_of(chosen);
     if (best.exists || activities_[task] == activities_[chosen]) return is_higher;
     return is_more_active;
   };
-  for (const std::uint32_t task : domains_.needed_tasks()) {
+  for (const LocalTask task : domains_.needed_tasks()) {
     if (domains_.count(task) > 1 && (chosen == none || is_better(task))) chosen = task;
   }
   return chosen;
 }
 
 /// The value of the least estimated cost; before the first solution rather the one saved.
-std::uint32_t LearningSearch::choose_value(std::uint32_t task, const Incumbent& best,
+std::uint32_t LearningSearch::choose_value(LocalTask task, const Incumbent& best,
                                            const SearchBudget& budget) {
   const std::uint32_t saved = saved_[task];
   if (!best.exists && saved != none && domains_.has(task, saved)) return saved;
@@ -167,7 +167,7 @@ std::uint32_t LearningSearch::choose_value(std::uint32_t task, const Incumbent& 
 
 /// Saves the values of the tasks that have one, to try them first next time.
 void LearningSearch::save_values() {
-  for (const std::uint32_t task : domains_.needed_tasks()) {
+  for (const LocalTask task : domains_.needed_tasks()) {
     if (domains_.count(task) == 1) saved_[task] = domains_.best(task);
   }
 }
@@ -202,7 +202,7 @@ bool ObjectiveReasons::propagate(const Incumbent& incumbent, const SearchBudget&
 bool ObjectiveReasons::may_serve_more(const Incumbent& incumbent) const {
   const auto possible =
       std::count_if(problem_->requests.begin(), problem_->requests.end(),
-                    [this](std::uint32_t task) { return !trail_.is_false(Trail::runs(task)); });
+                    [this](LocalTask task) { return !trail_.is_false(Trail::runs(task)); });
   return static_cast<std::uint32_t>(possible) > incumbent.satisfied;
 }
 
@@ -210,7 +210,7 @@ bool ObjectiveReasons::may_serve_more(const Incumbent& incumbent) const {
 bool ObjectiveReasons::serve_open_requests() {
   bool is_stored = false;
   Trail::Cause reason;
-  for (const std::uint32_t task : problem_->requests) {
+  for (const LocalTask task : problem_->requests) {
     const Literal runs = Trail::runs(task);
     if (trail_.is_true(runs) || trail_.is_false(runs)) continue;
     if (!is_stored) {
@@ -245,7 +245,7 @@ bool ObjectiveReasons::bound_costs(const CostBound::Cost& limits, bool is_final,
     return false;
   }
   if (bound + bound_.highest_cost() <= threshold) return true;
-  for (const std::uint32_t task : bound_.relevant_tasks()) {
+  for (const LocalTask task : bound_.relevant_tasks()) {
     for (const std::uint32_t index : domains_.indices(task)) {
       const std::int64_t with_value = bound + bound_.residual(task, index);
       if (with_value <= threshold) continue;
@@ -273,7 +273,7 @@ void ObjectiveReasons::explain_requests() {
 
 /// Appends the requests that were ruled out before the place `end` of the trail.
 void ObjectiveReasons::append_lost_requests(std::size_t end, std::vector<Literal>& reason) const {
-  for (const std::uint32_t task : problem_->requests) {
+  for (const LocalTask task : problem_->requests) {
     const Literal stops = negate(Trail::runs(task));
     if (trail_.is_true(stops) && trail_.place_of(stops) < end) reason.push_back(stops);
   }
@@ -293,7 +293,7 @@ void ObjectiveReasons::explain_comparison(const Incumbent& incumbent, Objective:
 
 /// f2 and f3: the tasks that have to run, and that they cannot do better.
 void ObjectiveReasons::append_needed_tasks(Objective::Decider decider) {
-  for (const std::uint32_t task : domains_.needed_tasks()) {
+  for (const LocalTask task : domains_.needed_tasks()) {
     const std::uint32_t best = domains_.best(task);
     const bool is_perfect = domains_.value(task, best).suitability == one_million;
     if (is_perfect && decider == Objective::Decider::suitability) continue;
@@ -307,7 +307,7 @@ void ObjectiveReasons::append_needed_tasks(Objective::Decider decider) {
 /// f4: the values with which tasks might have shared an activation, or needed none. Those of active
 /// behaviors are among them, so that no behavior can stay that cannot stay now.
 void ObjectiveReasons::append_activations() {
-  for (const std::uint32_t task : domains_.needed_tasks()) {
+  for (const LocalTask task : domains_.needed_tasks()) {
     trail_.append_removals(
         task, [&](std::uint32_t index) { return objective_.is_free(task, index); }, reason_);
     const std::uint32_t best = domains_.best(task);
@@ -320,7 +320,7 @@ void ObjectiveReasons::append_activations() {
 /// The canonical order: up to the task that decides, no value comes before that of the incumbent;
 /// of that task not even the same.
 void ObjectiveReasons::append_order(const Incumbent& incumbent) {
-  for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
+  for (LocalTask task(0); task < domains_.task_count(); ++task) {
     const std::uint32_t theirs = incumbent.assignment[task];
     const bool may_run = objective_.may_run(task);
     if (may_run) {

@@ -75,8 +75,8 @@ class LearningSearch {
   void backtrack_to(std::uint32_t level);
   void restart();
   [[nodiscard]] Literal decide(const Incumbent& best, const SearchBudget& budget);
-  [[nodiscard]] std::uint32_t choose_task(const Incumbent& best) const;
-  [[nodiscard]] std::uint32_t choose_value(std::uint32_t task, const Incumbent& best,
+  [[nodiscard]] LocalTask choose_task(const Incumbent& best) const;
+  [[nodiscard]] std::uint32_t choose_value(LocalTask task, const Incumbent& best,
                                            const SearchBudget& budget);
   void save_values();
 

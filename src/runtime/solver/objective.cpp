@@ -49,7 +49,7 @@ void CanonicalOrder::load(const Problem& problem) {
   const auto tasks = static_cast<std::uint32_t>(whole.present.size());
   empty_first_.resize(tasks);
   kept_first_.resize(tasks);
-  for (std::uint32_t task = 0; task < tasks; ++task) {
+  for (LocalTask task(0); task < tasks; ++task) {
     const TaskId id = first_task_ + task;
     const std::uint64_t* const words =
         whole.domains.data() + (catalog_.words[id] - catalog_.words[first_task_]);
@@ -84,12 +84,12 @@ void Objective::load(const Problem& problem) {
   const std::uint32_t behaviors = catalog_.group_behaviors[problem.group + 1] - first_behavior;
 
   is_request_.assign(tasks, 0);
-  for (const std::uint32_t task : problem.requests) is_request_[task] = 1;
+  for (const LocalTask task : problem.requests) is_request_[task] = 1;
   active_.assign(behaviors, 0);
   for (const BehaviorId behavior : problem.active) active_[behavior - first_behavior] = 1;
 
   free_.assign(problem.domains.size(), 0);
-  for (std::uint32_t task = 0; task < tasks; ++task) {
+  for (LocalTask task(0); task < tasks; ++task) {
     const auto values = domains_.values(task);
     for (std::uint32_t index = 0; index < values.size(); ++index) {
       const BehaviorId behavior = values[index].behavior;
@@ -100,7 +100,7 @@ void Objective::load(const Problem& problem) {
   }
 }
 
-bool Objective::is_free(std::uint32_t task, std::uint32_t index) const {
+bool Objective::is_free(LocalTask task, std::uint32_t index) const {
   return has_bit(&free_[domains_.word_begin(task)], index);
 }
 
@@ -123,7 +123,7 @@ Objective::Comparison Objective::compare(const Incumbent& incumbent, std::uint32
 std::strong_ordering Objective::compare_requests(const Incumbent& incumbent) const {
   std::uint32_t possible = 0;
   auto order = std::strong_ordering::equal;
-  for (const std::uint32_t task : problem_->requests) {
+  for (const LocalTask task : problem_->requests) {
     const bool ours = domains_.count(task) > 0;
     const bool theirs = incumbent.assignment[task] != none;
     if (ours) ++possible;
@@ -153,7 +153,7 @@ std::strong_ordering Objective::compare_suitability(const Incumbent& incumbent) 
 std::strong_ordering Objective::compare_exactly(const Incumbent& incumbent) {
   ours_.clear();
   theirs_.clear();
-  for (const std::uint32_t task : domains_.needed_tasks()) {
+  for (const LocalTask task : domains_.needed_tasks()) {
     const std::uint32_t index = incumbent.assignment[task];
     const Millionths ours = domains_.value(task, domains_.best(task)).suitability;
     const Millionths theirs = index == none ? one_million : domains_.value(task, index).suitability;
@@ -161,7 +161,7 @@ std::strong_ordering Objective::compare_exactly(const Incumbent& incumbent) {
     ours_.multiply(ours);
     theirs_.multiply(theirs);
   }
-  for (const std::uint32_t task : incumbent.running) {
+  for (const LocalTask task : incumbent.running) {
     if (!domains_.needed(task)) {
       theirs_.multiply(domains_.value(task, incumbent.assignment[task]).suitability);
     }
@@ -177,7 +177,7 @@ std::uint32_t Objective::least_activations() {
   ++count_number_;
   std::uint32_t activations = 0;
   bool has_open_tasks = false;
-  for (const std::uint32_t task : domains_.needed_tasks()) {
+  for (const LocalTask task : domains_.needed_tasks()) {
     if (!has_free_value(task)) {
       ++activations;
     } else if (domains_.count(task) > 1) {
@@ -195,7 +195,7 @@ std::uint32_t Objective::least_activations() {
 /// Activations beyond the counted ones. Each task takes at least its least share of one.
 std::uint32_t Objective::least_activations_of_open_tasks() const {
   std::uint32_t shares = 0;
-  for (const std::uint32_t task : domains_.needed_tasks()) {
+  for (const LocalTask task : domains_.needed_tasks()) {
     if (domains_.count(task) > 1 && has_free_value(task)) shares += least_share(task);
   }
   return (shares + whole_share - 1) / whole_share;
@@ -203,7 +203,7 @@ std::uint32_t Objective::least_activations_of_open_tasks() const {
 
 /// The least share of an activation that a value of the task has. Tasks that may have one behavior
 /// share its activation; none is needed for a behavior that was active, or is counted.
-std::uint32_t Objective::least_share(std::uint32_t task) const {
+std::uint32_t Objective::least_share(LocalTask task) const {
   std::uint32_t most_tasks = 1;
   for (const std::uint32_t index : domains_.indices(task)) {
     if (!is_free(task, index)) continue;
@@ -232,14 +232,14 @@ bool Objective::may_stay(BehaviorId behavior) const {
 
 bool Objective::may_have(ValueId value) const {
   const TaskId task = catalog_.task_of(value);
-  const std::uint32_t local = task - domains_.first_task();
+  const LocalTask local = task - domains_.first_task();
   return may_run(local) && domains_.has(local, value - catalog_.values.begin[task]);
 }
 
 /// The canonical order: compares the lowest ranks that are left, task by task. "less" is better.
 std::strong_ordering Objective::compare_keys(const Incumbent& incumbent,
                                              std::uint32_t depth) const {
-  for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
+  for (LocalTask task(0); task < domains_.task_count(); ++task) {
     if (!components_.contains(task, depth)) continue;
     std::uint32_t least = domains_.needed(task) ? none : key(task, none);
     if (may_run(task)) {
@@ -257,11 +257,11 @@ void Objective::record(Incumbent& incumbent) {
   incumbent.exists = true;
   incumbent.assignment.assign(domains_.task_count(), none);
   incumbent.running.assign(domains_.needed_tasks().begin(), domains_.needed_tasks().end());
-  for (const std::uint32_t task : incumbent.running) {
+  for (const LocalTask task : incumbent.running) {
     incumbent.assignment[task] = domains_.best(task);
   }
   incumbent.satisfied = 0;
-  for (const std::uint32_t task : problem_->requests) {
+  for (const LocalTask task : problem_->requests) {
     if (domains_.count(task) > 0) ++incumbent.satisfied;
   }
   incumbent.sums = domains_.sums();

@@ -40,8 +40,8 @@ class CanonicalOrder {
   void load(const Problem& problem);
 
   /// Rank of a value (or none) of a task: lower is better, and no two values have the same.
-  [[nodiscard]] std::uint32_t key(std::uint32_t task, std::uint32_t index) const {
-    if (index == none) return empty_first_[task] != 0 ? 0 : none;
+  [[nodiscard]] std::uint32_t key(LocalTask task, std::uint32_t index) const {
+    if (index == none) return empty_first_[task] != 0 ? 0U : none;
     if (index == kept_first_[task]) return 0;
     if (ranks_.empty()) return index + 1;
     return ranks_[catalog_.values.begin[first_task_ + task] + index] + 1;
@@ -50,7 +50,7 @@ class CanonicalOrder {
  private:
   const CompiledCatalog& catalog_;
   const std::vector<std::uint32_t>& ranks_;
-  TaskId first_task_ = 0;
+  TaskId first_task_;
   std::vector<std::uint8_t> empty_first_;  ///< by task: "not running" comes first
   std::vector<std::uint32_t> kept_first_;  ///< by task: the value index that comes first, or none
 };
@@ -58,11 +58,11 @@ class CanonicalOrder {
 /// The best solution so far, and its objectives.
 struct Incumbent {
   bool exists = false;
-  Assignment assignment;               ///< by task
-  std::vector<std::uint32_t> running;  ///< tasks that run
-  std::uint32_t satisfied = 0;         ///< requests, for f1
-  Domains::Sums sums;                  ///< for f2 and f3
-  std::uint32_t changes = 0;           ///< for f4
+  Assignment assignment;           ///< by task
+  std::vector<LocalTask> running;  ///< tasks that run
+  std::uint32_t satisfied = 0;     ///< requests, for f1
+  Domains::Sums sums;              ///< for f2 and f3
+  std::uint32_t changes = 0;       ///< for f4
 };
 
 /// The lexicographic objective: f1 to f4, then the canonical order (docs/semantics.md,
@@ -105,20 +105,20 @@ class Objective {
   void record(Incumbent& incumbent);
 
   /// Rank of a value (or none) of a task in the canonical order: lower is better.
-  [[nodiscard]] std::uint32_t key(std::uint32_t task, std::uint32_t index) const {
+  [[nodiscard]] std::uint32_t key(LocalTask task, std::uint32_t index) const {
     return order_.key(task, index);
   }
 
   [[nodiscard]] bool was_active(BehaviorId behavior) const {
     return active_[behavior - domains_.first_behavior()] != 0;
   }
-  [[nodiscard]] bool is_request(std::uint32_t task) const { return is_request_[task] != 0; }
+  [[nodiscard]] bool is_request(LocalTask task) const { return is_request_[task] != 0; }
   /// Whether a task may get this value without an activation of its own: the behavior was active,
   /// or performs other tasks, too.
-  [[nodiscard]] bool is_free(std::uint32_t task, std::uint32_t index) const;
+  [[nodiscard]] bool is_free(LocalTask task, std::uint32_t index) const;
   /// Whether the task may run in a solution of the present subtree that ties with the incumbent on
   /// f1 to f3.
-  [[nodiscard]] bool may_run(std::uint32_t task) const {
+  [[nodiscard]] bool may_run(LocalTask task) const {
     return domains_.needed(task) || (is_request(task) && domains_.count(task) > 0);
   }
 
@@ -130,10 +130,10 @@ class Objective {
   [[nodiscard]] std::uint32_t least_changes();
   [[nodiscard]] std::uint32_t least_activations();
   [[nodiscard]] std::uint32_t least_activations_of_open_tasks() const;
-  [[nodiscard]] std::uint32_t least_share(std::uint32_t task) const;
+  [[nodiscard]] std::uint32_t least_share(LocalTask task) const;
   [[nodiscard]] std::uint32_t least_deactivations() const;
   [[nodiscard]] bool may_stay(BehaviorId behavior) const;
-  [[nodiscard]] bool has_free_value(std::uint32_t task) const {
+  [[nodiscard]] bool has_free_value(LocalTask task) const {
     return domains_.any_within(task, &free_[domains_.word_begin(task)]);
   }
   [[nodiscard]] bool may_have(ValueId value) const;

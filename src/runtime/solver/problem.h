@@ -15,12 +15,12 @@ namespace cbc {
 /// Where behaviors are active before, each task that starts only on request has a request, must
 /// run, or has an empty domain: the bound on f4 relies on it that no task runs for nothing.
 struct Problem {
-  std::uint32_t group = 0;
-  std::vector<std::uint64_t> domains;   ///< bit sets of value indices, task by task as in words
-  std::vector<std::uint8_t> may_stop;   ///< by task: whether "not running" is in the domain
-  std::vector<std::uint32_t> present;   ///< by task: value index before the event, or none
-  std::vector<std::uint32_t> requests;  ///< tasks with an active request, most important first
-  std::vector<BehaviorId> active;       ///< active behaviors just before the event
+  GroupId group;
+  std::vector<std::uint64_t> domains;  ///< bit sets of value indices, task by task as in words
+  std::vector<std::uint8_t> may_stop;  ///< by task: whether "not running" is in the domain
+  std::vector<std::uint32_t> present;  ///< by task: value index before the event, or none
+  std::vector<LocalTask> requests;     ///< tasks with an active request, most important first
+  std::vector<BehaviorId> active;      ///< active behaviors just before the event
   /// Where this is a subproblem: the problem whose domains fix the canonical order. Null: this one.
   const Problem* subproblem_of = nullptr;
 };

@@ -21,11 +21,11 @@ namespace {
 
 /// A task that runs closes its rivals.
 template <typename Close>
-bool close_rivals(const CompiledCatalog& catalog, const Domains& domains, std::uint32_t task,
+bool close_rivals(const CompiledCatalog& catalog, const Domains& domains, LocalTask task,
                   const Close& close) {
   for (const std::uint32_t clique : catalog.task_cliques[domains.first_task() + task]) {
     for (const TaskId member : catalog.cliques[clique]) {
-      const std::uint32_t rival = member - domains.first_task();
+      const LocalTask rival = member - domains.first_task();
       if (rival != task && !close(rival)) return false;
     }
   }
@@ -34,7 +34,7 @@ bool close_rivals(const CompiledCatalog& catalog, const Domains& domains, std::u
 
 /// A task that runs needs the targets of the arcs that all of its behaviors require.
 template <typename Need>
-bool need_requirements(const CompiledCatalog& catalog, const Domains& domains, std::uint32_t task,
+bool need_requirements(const CompiledCatalog& catalog, const Domains& domains, LocalTask task,
                        const Need& need) {
   for (const Arc& arc : catalog.arcs[domains.first_task() + task]) {
     if (domains.all_within(task, &catalog.masks[arc.mask]) &&
@@ -47,7 +47,7 @@ bool need_requirements(const CompiledCatalog& catalog, const Domains& domains, s
 
 /// A task that cannot run removes the behaviors, in a mask, of each task that requires it.
 template <typename Remove>
-bool remove_dependents(const CompiledCatalog& catalog, const Domains& domains, std::uint32_t task,
+bool remove_dependents(const CompiledCatalog& catalog, const Domains& domains, LocalTask task,
                        const Remove& remove) {
   for (const std::uint32_t number : catalog.incoming[domains.first_task() + task]) {
     const Arc& arc = catalog.arcs.items[number];
@@ -62,12 +62,11 @@ struct PlainChanges {
 
   Domains& domains;
 
-  [[nodiscard]] bool is_chosen(std::uint32_t task, std::uint32_t /*index*/) const {
+  [[nodiscard]] bool is_chosen(LocalTask task, std::uint32_t /*index*/) const {
     return domains.count(task) == 1;
   }
   [[nodiscard]] bool refuse(const Demand& /*demand*/) const { return false; }
-  [[nodiscard]] bool remove(std::uint32_t task, std::uint32_t index,
-                            const Demand& /*demand*/) const {
+  [[nodiscard]] bool remove(LocalTask task, std::uint32_t index, const Demand& /*demand*/) const {
     return domains.remove(task, index);
   }
 };
@@ -84,7 +83,7 @@ PerformanceBound::PerformanceBound(const CompiledCatalog& catalog, const Domains
 }
 
 template <typename Changes>
-bool PerformanceBound::revise(std::uint32_t task, Changes& changes) {
+bool PerformanceBound::revise(LocalTask task, Changes& changes) {
   const CompiledTask& compiled = catalog_.tasks[domains_.first_task() + task];
   if (compiled.minimum_performance > 0 &&
       !enforce(task, compiled.minimum_performance, compiled.minimum_cost, {task, none}, changes)) {
@@ -94,7 +93,7 @@ bool PerformanceBound::revise(std::uint32_t task, Changes& changes) {
     for (const CompiledRequirement& rule :
          catalog_.requirements[domains_.value(task, index).behavior]) {
       if (rule.minimum_performance == 0) continue;
-      const std::uint32_t target = rule.task - domains_.first_task();
+      const LocalTask target = rule.task - domains_.first_task();
       if (changes.is_chosen(task, index)) {
         if (!enforce(target, rule.minimum_performance, rule.minimum_cost, {task, index}, changes)) {
           return false;
@@ -111,11 +110,11 @@ bool PerformanceBound::revise(std::uint32_t task, Changes& changes) {
 /// Removes values that push the product below the minimum, whatever else is chosen. A value that is
 /// too close to tell stays: the exact test decides once it is chosen.
 template <typename Changes>
-bool PerformanceBound::enforce(std::uint32_t task, Millionths minimum, std::int64_t minimum_cost,
+bool PerformanceBound::enforce(LocalTask task, Millionths minimum, std::int64_t minimum_cost,
                                Demand demand, Changes& changes) {
   const Bound bound = this->bound(task);
   if (is_below(bound, minimum, minimum_cost)) return changes.refuse(demand);
-  for (const std::uint32_t member : closure_) {
+  for (const LocalTask member : closure_) {
     if (domains_.count(member) == 1) continue;
     const auto values = static_cast<std::uint32_t>(domains_.values(member).size());
     for (std::uint32_t index = domains_.best(member) + 1; index < values; ++index) {
@@ -128,14 +127,14 @@ bool PerformanceBound::enforce(std::uint32_t task, Millionths minimum, std::int6
   return true;
 }
 
-PerformanceBound::Bound PerformanceBound::bound(std::uint32_t task) {
+PerformanceBound::Bound PerformanceBound::bound(LocalTask task) {
   ++closure_number_;
   closure_.clear();
   closure_.push_back(task);
   in_closure_[task] = closure_number_;
   Bound bound;
   for (std::size_t next = 0; next < closure_.size(); ++next) {
-    const std::uint32_t member = closure_[next];
+    const LocalTask member = closure_[next];
     ++effort_;
     if (domains_.count(member) == 0) {
       bound.reachable = false;
@@ -147,7 +146,7 @@ PerformanceBound::Bound PerformanceBound::bound(std::uint32_t task) {
     if (best.suitability == 0) bound.zero = true;
     if (best.suitability != one_million) ++bound.factors;
     for (const Arc& arc : catalog_.arcs[domains_.first_task() + member]) {
-      const std::uint32_t target = arc.target - domains_.first_task();
+      const LocalTask target = arc.target - domains_.first_task();
       if (in_closure_[target] == closure_number_) continue;
       if (!domains_.all_within(member, &catalog_.masks[arc.mask])) continue;
       in_closure_[target] = closure_number_;
@@ -164,7 +163,7 @@ bool PerformanceBound::is_below(const Bound& bound, Millionths minimum, std::int
   if (bound.cost > minimum_cost + slack) return true;
   if (bound.cost < minimum_cost - slack) return false;
   product_.clear();
-  for (const std::uint32_t member : closure_) {
+  for (const LocalTask member : closure_) {
     const Millionths best = domains_.value(member, domains_.best(member)).suitability;
     if (best != one_million) product_.multiply(best);
   }
@@ -174,14 +173,14 @@ bool PerformanceBound::is_below(const Bound& bound, Millionths minimum, std::int
 }
 
 /// Whether the minimum of the last bound is out of reach with this value of a task of the closure.
-bool PerformanceBound::is_too_low(const Bound& bound, std::uint32_t task, std::uint32_t index,
+bool PerformanceBound::is_too_low(const Bound& bound, LocalTask task, std::uint32_t index,
                                   std::int64_t minimum_cost) const {
   const Value& value = domains_.value(task, index);
   if (value.suitability == 0) return true;
   std::int64_t cost = bound.cost - domains_.value(task, domains_.best(task)).cost + value.cost;
   std::uint32_t factors = bound.factors + 2;
   for (const CompiledRequirement& rule : catalog_.requirements[value.behavior]) {
-    const std::uint32_t required = rule.task - domains_.first_task();
+    const LocalTask required = rule.task - domains_.first_task();
     if (in_closure_[required] == closure_number_ || domains_.count(required) == 0) continue;
     cost += domains_.value(required, domains_.best(required)).cost;
     ++factors;
@@ -215,25 +214,25 @@ bool Propagator::propagate() {
   return true;
 }
 
-bool Propagator::revise(std::uint32_t task) {
+bool Propagator::revise(LocalTask task) {
   ++propagations_;
   if (domains_.count(task) == 0) {
     return remove_dependents(catalog_, domains_, task,
-                             [this](std::uint32_t source, const std::uint64_t* mask) {
+                             [this](LocalTask source, const std::uint64_t* mask) {
                                return domains_.remove_all(source, mask);
                              });
   }
   return close_rivals(catalog_, domains_, task,
-                      [this](std::uint32_t rival) { return domains_.close(rival); }) &&
-         need_requirements(
-             catalog_, domains_, task,
-             [this](const Arc& /*arc*/, std::uint32_t target) { return domains_.need(target); });
+                      [this](LocalTask rival) { return domains_.close(rival); }) &&
+         need_requirements(catalog_, domains_, task, [this](const Arc& /*arc*/, LocalTask target) {
+           return domains_.need(target);
+         });
 }
 
 bool Propagator::revise_performance() {
   PlainChanges changes{domains_};
   // The list does not grow in this loop: only revise() finds further needed tasks.
-  for (const std::uint32_t task : domains_.needed_tasks()) {
+  for (const LocalTask task : domains_.needed_tasks()) {
     if (!catalog_.tasks[domains_.first_task() + task].has_performance_rules) continue;
     ++propagations_;
     if (!performance_.revise(task, changes)) return false;
@@ -244,7 +243,7 @@ bool Propagator::revise_performance() {
 bool CatalogTrail::load(const Problem& problem) {
   clear();
   requests_ = problem.requests;
-  for (std::uint32_t task = 0; task < task_count_; ++task) {
+  for (LocalTask task(0); task < task_count_; ++task) {
     const auto values = static_cast<std::uint32_t>(domains_.values(task).size());
     for (std::uint32_t index = 0; index < values; ++index) {
       if (!domains_.has(task, index) && !imply(negate(has_value(task, index)), {})) return false;
@@ -255,15 +254,15 @@ bool CatalogTrail::load(const Problem& problem) {
   return propagate();
 }
 
-bool CatalogTrail::follow_running(std::uint32_t task) {
-  return close_rivals(catalog_, domains_, task, [&](std::uint32_t rival) {
+bool CatalogTrail::follow_running(LocalTask task) {
+  return close_rivals(catalog_, domains_, task, [&](LocalTask rival) {
     return imply(negate(runs(rival)), {Cause::Kind::literal, runs(task)});
   });
 }
 
-bool CatalogTrail::follow_not_running(std::uint32_t task) {
+bool CatalogTrail::follow_not_running(LocalTask task) {
   const Cause cause{Cause::Kind::literal, negate(runs(task))};
-  const auto remove = [&](std::uint32_t source, const std::uint64_t* mask) {
+  const auto remove = [&](LocalTask source, const std::uint64_t* mask) {
     const auto values = static_cast<std::uint32_t>(domains_.values(source).size());
     for (const std::uint32_t index : Bits(mask, values)) {
       if (!imply(negate(has_value(source, index)), cause)) return false;
@@ -274,7 +273,7 @@ bool CatalogTrail::follow_not_running(std::uint32_t task) {
 }
 
 /// What the one value requires; its arcs would give longer reasons.
-bool CatalogTrail::follow_value(std::uint32_t /*task*/, ValueId value) {
+bool CatalogTrail::follow_value(LocalTask /*task*/, ValueId value) {
   const Cause cause{Cause::Kind::literal, has_value(value)};
   for (const CompiledRequirement& requirement :
        catalog_.requirements[catalog_.values.items[value].behavior]) {
@@ -283,8 +282,8 @@ bool CatalogTrail::follow_value(std::uint32_t /*task*/, ValueId value) {
   return true;
 }
 
-bool CatalogTrail::follow_choice(std::uint32_t task) {
-  return need_requirements(catalog_, domains_, task, [this](const Arc& arc, std::uint32_t target) {
+bool CatalogTrail::follow_choice(LocalTask task) {
+  return need_requirements(catalog_, domains_, task, [this](const Arc& arc, LocalTask target) {
     const auto number = static_cast<std::uint32_t>(&arc - catalog_.arcs.items.data());
     return imply(runs(target), {Cause::Kind::requirement, number});
   });
@@ -296,13 +295,13 @@ PerformanceReasons::PerformanceReasons(const CompiledCatalog& catalog, const Dom
 
 void PerformanceReasons::load() {
   ruled_.clear();
-  for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
+  for (LocalTask task(0); task < domains_.task_count(); ++task) {
     if (catalog_.tasks[domains_.first_task() + task].has_performance_rules) ruled_.push_back(task);
   }
 }
 
 bool PerformanceReasons::propagate(const SearchBudget& budget) {
-  for (const std::uint32_t task : ruled_) {
+  for (const LocalTask task : ruled_) {
     if (budget.is_out_of_time()) return true;
     if (domains_.needed(task) && !performance_.revise(task, *this)) return false;
   }
@@ -316,11 +315,11 @@ bool PerformanceReasons::refuse(const Demand& demand) {
 }
 
 /// Where the value is too low for the demand, what it requires counts with its best suitability.
-bool PerformanceReasons::remove(std::uint32_t task, std::uint32_t index, const Demand& demand) {
+bool PerformanceReasons::remove(LocalTask task, std::uint32_t index, const Demand& demand) {
   explain_bound(demand);
   for (const CompiledRequirement& rule :
        catalog_.requirements[domains_.value(task, index).behavior]) {
-    const std::uint32_t required = rule.task - domains_.first_task();
+    const LocalTask required = rule.task - domains_.first_task();
     if (demand.task == none || domains_.count(required) == 0) continue;
     const std::uint32_t best = domains_.best(required);
     trail_.append_removals(
@@ -333,7 +332,7 @@ bool PerformanceReasons::remove(std::uint32_t task, std::uint32_t index, const D
 /// those that do not require the tasks that count.
 void PerformanceReasons::explain_bound(const Demand& demand) {
   reason_.clear();
-  for (const std::uint32_t member : performance_.closure()) {
+  for (const LocalTask member : performance_.closure()) {
     trail_.append_removals(
         member, [&](std::uint32_t index) { return is_in_reason(member, index); }, reason_);
   }
@@ -342,7 +341,7 @@ void PerformanceReasons::explain_bound(const Demand& demand) {
                                          : trail_.has_value(demand.task, demand.index));
 }
 
-bool PerformanceReasons::is_in_reason(std::uint32_t task, std::uint32_t index) const {
+bool PerformanceReasons::is_in_reason(LocalTask task, std::uint32_t index) const {
   if (domains_.count(task) == 0 || index < domains_.best(task)) return true;
   for (const Arc& arc : catalog_.arcs[domains_.first_task() + task]) {
     const std::uint64_t* const mask = &catalog_.masks[arc.mask];

@@ -25,7 +25,7 @@ class PerformanceBound {
   };
   /// What asks for a minimum: a task that runs, or the value that it has; or nothing that holds.
   struct Demand {
-    std::uint32_t task = none;
+    LocalTask task = none;
     std::uint32_t index = none;
   };
 
@@ -35,25 +35,25 @@ class PerformanceBound {
   /// `Changes` refuses demands that cannot be met, and removes values that are too low for a
   /// demand, or that themselves demand too much. False if it returns that.
   template <typename Changes>
-  [[nodiscard]] bool revise(std::uint32_t task, Changes& changes);
+  [[nodiscard]] bool revise(LocalTask task, Changes& changes);
 
   /// The tasks of the closures of all bounds so far: what they took.
   [[nodiscard]] std::uint64_t effort() const { return effort_; }
   /// The tasks of the last bound; the last of them is the one that cannot run, if any.
-  [[nodiscard]] const std::vector<std::uint32_t>& closure() const { return closure_; }
+  [[nodiscard]] const std::vector<LocalTask>& closure() const { return closure_; }
 
  private:
-  [[nodiscard]] Bound bound(std::uint32_t task);
+  [[nodiscard]] Bound bound(LocalTask task);
   [[nodiscard]] bool is_below(const Bound& bound, Millionths minimum, std::int64_t minimum_cost);
   template <typename Changes>
-  [[nodiscard]] bool enforce(std::uint32_t task, Millionths minimum, std::int64_t minimum_cost,
+  [[nodiscard]] bool enforce(LocalTask task, Millionths minimum, std::int64_t minimum_cost,
                              Demand demand, Changes& changes);
-  [[nodiscard]] bool is_too_low(const Bound& bound, std::uint32_t task, std::uint32_t index,
+  [[nodiscard]] bool is_too_low(const Bound& bound, LocalTask task, std::uint32_t index,
                                 std::int64_t minimum_cost) const;
 
   const CompiledCatalog& catalog_;
   const Domains& domains_;
-  std::vector<std::uint32_t> closure_;
+  std::vector<LocalTask> closure_;
   std::vector<std::uint64_t> in_closure_;  ///< by task: number of the last closure it was in
   std::uint64_t closure_number_ = 0;
   std::uint64_t effort_ = 0;
@@ -81,7 +81,7 @@ class Propagator {
   }
 
  private:
-  [[nodiscard]] bool revise(std::uint32_t task);
+  [[nodiscard]] bool revise(LocalTask task);
   [[nodiscard]] bool revise_performance();
 
   const CompiledCatalog& catalog_;
@@ -103,15 +103,15 @@ class CatalogTrail final : public Trail {
   /// see conflict().
   [[nodiscard]] bool load(const Problem& problem);
   /// The tasks with a request, most important first.
-  [[nodiscard]] std::span<const std::uint32_t> requests() const { return requests_; }
+  [[nodiscard]] std::span<const LocalTask> requests() const { return requests_; }
 
  private:
-  [[nodiscard]] bool follow_running(std::uint32_t task) override;
-  [[nodiscard]] bool follow_not_running(std::uint32_t task) override;
-  [[nodiscard]] bool follow_value(std::uint32_t task, ValueId value) override;
-  [[nodiscard]] bool follow_choice(std::uint32_t task) override;
+  [[nodiscard]] bool follow_running(LocalTask task) override;
+  [[nodiscard]] bool follow_not_running(LocalTask task) override;
+  [[nodiscard]] bool follow_value(LocalTask task, ValueId value) override;
+  [[nodiscard]] bool follow_choice(LocalTask task) override;
 
-  std::span<const std::uint32_t> requests_;
+  std::span<const LocalTask> requests_;
 };
 
 /// Propagates minimum performances as the propagator does, on a trail: the reasons are the removals
@@ -129,19 +129,19 @@ class PerformanceReasons {
   friend PerformanceBound;
   using Demand = PerformanceBound::Demand;
 
-  [[nodiscard]] bool is_chosen(std::uint32_t task, std::uint32_t index) const {
+  [[nodiscard]] bool is_chosen(LocalTask task, std::uint32_t index) const {
     return trail_.is_true(trail_.has_value(task, index));
   }
   [[nodiscard]] bool refuse(const Demand& demand);
-  [[nodiscard]] bool remove(std::uint32_t task, std::uint32_t index, const Demand& demand);
+  [[nodiscard]] bool remove(LocalTask task, std::uint32_t index, const Demand& demand);
   void explain_bound(const Demand& demand);
-  [[nodiscard]] bool is_in_reason(std::uint32_t task, std::uint32_t index) const;
+  [[nodiscard]] bool is_in_reason(LocalTask task, std::uint32_t index) const;
 
   const CompiledCatalog& catalog_;
   const Domains& domains_;
   Trail& trail_;
   PerformanceBound performance_;
-  std::vector<std::uint32_t> ruled_;  ///< tasks with a minimum, or a behavior that requires one
+  std::vector<LocalTask> ruled_;  ///< tasks with a minimum, or a behavior that requires one
   std::vector<Literal> reason_;
 };
 

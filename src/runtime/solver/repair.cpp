@@ -37,24 +37,24 @@ bool Repair::find_solution(const Problem& problem) {
 /// Looks for places for what must run together with the first requests, and then for the others
 /// one by one.
 bool Repair::find_solution_with(std::size_t together) {
-  const std::vector<std::uint32_t>& requests = problem_->requests;
+  const std::vector<LocalTask>& requests = problem_->requests;
   for (std::size_t place = 0; place < together; ++place) {
     const Domains::Mark before = domains_.mark();
-    const std::uint32_t task = requests[place];
+    const LocalTask task = requests[place];
     if (!serve(task) && !drop(task, before)) return false;
   }
   if (!assign_needed_tasks()) return false;
   for (std::size_t place = together; place < requests.size(); ++place) {
     const Domains::Mark before = domains_.mark();
-    const std::uint32_t task = requests[place];
+    const LocalTask task = requests[place];
     if (!(serve(task) && assign_needed_tasks()) && !drop(task, before)) return false;
   }
   return true;
 }
 
-bool Repair::serve(std::uint32_t task) { return domains_.need(task) && propagator_.propagate(); }
+bool Repair::serve(LocalTask task) { return domains_.need(task) && propagator_.propagate(); }
 
-bool Repair::drop(std::uint32_t task, const Domains::Mark& before) {
+bool Repair::drop(LocalTask task, const Domains::Mark& before) {
   domains_.undo_to(before);
   return domains_.close(task) && propagator_.propagate();
 }
@@ -66,7 +66,7 @@ bool Repair::assign_needed_tasks() {
   constexpr std::uint32_t most_dead_ends = 20;
   std::uint32_t dead_ends = 0;
   for (;;) {
-    const std::uint32_t task = take_next_task();
+    const LocalTask task = take_next_task();
     if (task == none) return true;
     const std::uint32_t index = choose_value(task);
     if (index != none) {
@@ -96,16 +96,16 @@ void Repair::list_candidates() {
 }
 
 void Repair::list_new_candidates() {
-  const std::vector<std::uint32_t>& needed = domains_.needed_tasks();
+  const std::vector<LocalTask>& needed = domains_.needed_tasks();
   for (std::size_t place = listed_.needed; place < needed.size(); ++place) {
-    const std::uint32_t task = needed[place];
+    const LocalTask task = needed[place];
     if (domains_.count(task) == 1) continue;
     listings_[task] = {static_cast<std::uint32_t>(place), !has_present_value(task)};
     list_candidate(task);
   }
   const Domains::Mark now = domains_.mark();
   for (std::size_t change = listed_.trail; change < now.trail; ++change) {
-    const std::uint32_t task = domains_.changed_task(change);
+    const LocalTask task = domains_.changed_task(change);
     if (domains_.count(task) == 1 || !domains_.needed(task) || has_present_value(task)) continue;
     if (std::exchange(listings_[task].lost_present_value, true)) continue;
     list_candidate(task);
@@ -113,16 +113,16 @@ void Repair::list_new_candidates() {
   listed_ = now;
 }
 
-void Repair::list_candidate(std::uint32_t task) {
+void Repair::list_candidate(LocalTask task) {
   const Listing& listing = listings_[task];
   candidates_.push_back({listing.lost_present_value,
                          catalog_.tasks[domains_.first_task() + task].level, listing.place});
   std::push_heap(candidates_.begin(), candidates_.end());
 }
 
-std::uint32_t Repair::take_next_task() {
+LocalTask Repair::take_next_task() {
   while (!candidates_.empty()) {
-    const std::uint32_t task = domains_.needed_tasks()[candidates_.front().place];
+    const LocalTask task = domains_.needed_tasks()[candidates_.front().place];
     std::pop_heap(candidates_.begin(), candidates_.end());
     candidates_.pop_back();
     if (domains_.count(task) != 1) return task;
@@ -132,7 +132,7 @@ std::uint32_t Repair::take_next_task() {
 
 /// The present value, or the one that leaves most: of the requests, and then of f2. None if
 /// propagation refutes all.
-std::uint32_t Repair::choose_value(std::uint32_t task) {
+std::uint32_t Repair::choose_value(LocalTask task) {
   if (has_present_value(task)) return problem_->present[task];
   std::uint32_t chosen = none;
   std::pair<std::uint32_t, std::int64_t> least;
@@ -146,7 +146,7 @@ std::uint32_t Repair::choose_value(std::uint32_t task) {
 }
 
 /// What a value costs: requests, and -log of f2; nothing if propagation refutes it.
-std::optional<std::pair<std::uint32_t, std::int64_t>> Repair::try_value(std::uint32_t task,
+std::optional<std::pair<std::uint32_t, std::int64_t>> Repair::try_value(LocalTask task,
                                                                         std::uint32_t index) {
   const Domains::Mark before = domains_.mark();
   std::optional<std::pair<std::uint32_t, std::int64_t>> loss;
@@ -155,14 +155,14 @@ std::optional<std::pair<std::uint32_t, std::int64_t>> Repair::try_value(std::uin
   return loss;
 }
 
-bool Repair::assign(std::uint32_t task, std::uint32_t index) {
+bool Repair::assign(LocalTask task, std::uint32_t index) {
   return domains_.assign(task, index) && propagator_.propagate();
 }
 
 std::uint32_t Repair::count_lost_requests() const {
   return static_cast<std::uint32_t>(
       std::count_if(problem_->requests.begin(), problem_->requests.end(),
-                    [this](std::uint32_t task) { return domains_.count(task) == 0; }));
+                    [this](LocalTask task) { return domains_.count(task) == 0; }));
 }
 
 }  // namespace cbc

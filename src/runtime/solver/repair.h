@@ -30,7 +30,7 @@ class Repair {
 
  private:
   struct Choice {
-    std::uint32_t task = 0;
+    LocalTask task;
     std::uint32_t index = 0;
     Domains::Mark before;
   };
@@ -53,19 +53,19 @@ class Repair {
   };
 
   [[nodiscard]] bool find_solution_with(std::size_t together);
-  [[nodiscard]] bool serve(std::uint32_t task);
-  [[nodiscard]] bool drop(std::uint32_t task, const Domains::Mark& before);
+  [[nodiscard]] bool serve(LocalTask task);
+  [[nodiscard]] bool drop(LocalTask task, const Domains::Mark& before);
   [[nodiscard]] bool assign_needed_tasks();
   void list_candidates();
   void list_new_candidates();
-  void list_candidate(std::uint32_t task);
-  [[nodiscard]] std::uint32_t take_next_task();
-  [[nodiscard]] std::uint32_t choose_value(std::uint32_t task);
+  void list_candidate(LocalTask task);
+  [[nodiscard]] LocalTask take_next_task();
+  [[nodiscard]] std::uint32_t choose_value(LocalTask task);
   [[nodiscard]] std::optional<std::pair<std::uint32_t, std::int64_t>> try_value(
-      std::uint32_t task, std::uint32_t index);
-  [[nodiscard]] bool assign(std::uint32_t task, std::uint32_t index);
+      LocalTask task, std::uint32_t index);
+  [[nodiscard]] bool assign(LocalTask task, std::uint32_t index);
   [[nodiscard]] std::uint32_t count_lost_requests() const;
-  [[nodiscard]] bool has_present_value(std::uint32_t task) const {
+  [[nodiscard]] bool has_present_value(LocalTask task) const {
     const std::uint32_t index = problem_->present[task];
     return index != none && domains_.has(task, index);
   }

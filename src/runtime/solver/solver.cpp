@@ -99,7 +99,7 @@ SearchBound Solver::compare_requests(const Assignment& answer) const {
   bound.same_requests = true;
   std::uint32_t possible = 0;
   std::uint32_t served = 0;
-  for (const std::uint32_t task : problem_->requests) {
+  for (const LocalTask task : problem_->requests) {
     const bool is_served = answer[task] != none;
     const bool is_possible = domains_.count(task) > 0;
     if (is_served) ++served;
@@ -111,7 +111,7 @@ SearchBound Solver::compare_requests(const Assignment& answer) const {
 }
 
 bool Solver::serve_requests_of(const Assignment& answer) {
-  for (const std::uint32_t task : problem_->requests) {
+  for (const LocalTask task : problem_->requests) {
     if (answer[task] != none && !domains_.need(task)) return false;
   }
   return propagator_.propagate();
@@ -148,7 +148,7 @@ void Solver::return_to_root() {
 
 /// Takes "not running" out of the domains of the tasks that must run.
 bool Solver::begin() {
-  for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
+  for (LocalTask task(0); task < domains_.task_count(); ++task) {
     if (problem_->may_stop[task] == 0 && !domains_.need(task)) return false;
   }
   return propagator_.propagate();
@@ -269,7 +269,7 @@ bool Solver::enter_component(const Decision& decision) {
   component.base = frames_.size();
   component.mark = domains_.mark();
   component.best_cost_outside = 0;
-  for (const std::uint32_t task : domains_.needed_tasks()) {
+  for (const LocalTask task : domains_.needed_tasks()) {
     if (!components_.contains(task, components_.depth())) {
       component.best_cost_outside += domains_.value(task, domains_.best(task)).cost;
     }
@@ -287,7 +287,7 @@ bool Solver::leave_component() {
   const std::uint32_t depth = components_.depth();
   domains_.undo_to(component.mark);
   bool is_consistent = component.best.exists;
-  for (std::uint32_t task = 0; is_consistent && task < domains_.task_count(); ++task) {
+  for (LocalTask task(0); is_consistent && task < domains_.task_count(); ++task) {
     if (!components_.contains(task, depth)) continue;
     const std::uint32_t index = component.best.assignment[task];
     is_consistent = index == none ? domains_.close(task) : domains_.assign(task, index);
@@ -337,22 +337,22 @@ bool Solver::refuse(const Decision& decision) {
 /// f1.
 std::optional<Solver::Decision> Solver::decide() {
   if (options_.max_solutions > 0) return decide_in_catalog_order();
-  for (const std::uint32_t task : problem_->requests) {
+  for (const LocalTask task : problem_->requests) {
     if (domains_.may_stop(task) && domains_.count(task) > 0) {
       return Decision{Decision::Kind::run, task, none};
     }
   }
-  const std::uint32_t task = choose_task();
+  const LocalTask task = choose_task();
   if (task == none) return std::nullopt;
   return Decision{Decision::Kind::assign, task, choose_value(task)};
 }
 
 /// The undecided needed task of the highest level, so that a task is decided after those that may
 /// require it.
-std::uint32_t Solver::choose_task() const {
-  std::uint32_t chosen = none;
+LocalTask Solver::choose_task() const {
+  LocalTask chosen = none;
   std::uint32_t highest_level = 0;
-  for (const std::uint32_t task : domains_.needed_tasks()) {
+  for (const LocalTask task : domains_.needed_tasks()) {
     if (domains_.count(task) == 1 || !components_.contains(task, components_.depth())) continue;
     const std::uint32_t level = catalog_.tasks[domains_.first_task() + task].level;
     if (chosen == none || level > highest_level) {
@@ -364,7 +364,7 @@ std::uint32_t Solver::choose_task() const {
 }
 
 /// The value of the least estimated cost; of equal ones the first in the canonical order.
-std::uint32_t Solver::choose_value(std::uint32_t task) {
+std::uint32_t Solver::choose_value(LocalTask task) {
   std::uint32_t chosen = none;
   CostBound::Cost least;
   for (const std::uint32_t index : domains_.indices(task)) {
@@ -379,12 +379,12 @@ std::uint32_t Solver::choose_value(std::uint32_t task) {
 }
 
 /// Estimates the cost of a value with what it newly requires.
-CostBound::Cost Solver::estimate(std::uint32_t task, std::uint32_t index) {
+CostBound::Cost Solver::estimate(LocalTask task, std::uint32_t index) {
   if (is_hard_) return cost_bound_.reduced_cost(task, index);
   const Value& value = domains_.value(task, index);
   CostBound::Cost cost{value.cost, 0};
   for (const CompiledRequirement& rule : catalog_.requirements[value.behavior]) {
-    const std::uint32_t required = rule.task - domains_.first_task();
+    const LocalTask required = rule.task - domains_.first_task();
     if (domains_.needed(required) || domains_.count(required) == 0) continue;
     cost.log += domains_.value(required, domains_.best(required)).cost;
   }
@@ -393,7 +393,7 @@ CostBound::Cost Solver::estimate(std::uint32_t task, std::uint32_t index) {
 
 /// The paper's order: tasks in catalog order, values ("not running" too) by rank.
 std::optional<Solver::Decision> Solver::decide_in_catalog_order() const {
-  for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
+  for (LocalTask task(0); task < domains_.task_count(); ++task) {
     const std::uint32_t count = domains_.count(task);
     if (count == 0 || (count == 1 && domains_.needed(task))) continue;
     std::uint32_t first = none;

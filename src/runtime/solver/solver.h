@@ -69,7 +69,7 @@ class Solver {
       stop     ///< the task does not run, or else it does
     };
     Kind kind = Kind::run;
-    std::uint32_t task = 0;
+    LocalTask task;
     std::uint32_t value_index = none;
   };
   struct Frame {
@@ -112,9 +112,9 @@ class Solver {
 
   [[nodiscard]] std::optional<Decision> decide();
   [[nodiscard]] std::optional<Decision> decide_in_catalog_order() const;
-  [[nodiscard]] std::uint32_t choose_task() const;
-  [[nodiscard]] std::uint32_t choose_value(std::uint32_t task);
-  [[nodiscard]] CostBound::Cost estimate(std::uint32_t task, std::uint32_t index);
+  [[nodiscard]] LocalTask choose_task() const;
+  [[nodiscard]] std::uint32_t choose_value(LocalTask task);
+  [[nodiscard]] CostBound::Cost estimate(LocalTask task, std::uint32_t index);
 
   const CompiledCatalog& catalog_;
   const SearchOptions options_;

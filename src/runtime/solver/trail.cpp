@@ -79,7 +79,7 @@ Trail::Trail(const CompiledCatalog& catalog, Domains& domains)
 void Trail::clear() {
   first_task_ = domains_.first_task();
   task_count_ = domains_.task_count();
-  first_value_ = catalog_.values.begin[first_task_];
+  first_value_ = ValueId(catalog_.values.begin[first_task_]);
   variable_count_ = task_count_ + catalog_.values.begin[first_task_ + task_count_] - first_value_;
   nogoods_.clear(variable_count_);
   std::fill_n(truth_.begin(), 2 * variable_count_, std::int8_t{0});
@@ -109,8 +109,8 @@ bool Trail::imply(Literal literal, Cause cause) {
 }
 
 /// Infers that the task does not have any value, apart from `but`.
-bool Trail::imply_all_removed(std::uint32_t task, Literal but, Cause cause) {
-  for (Literal value = has_value(task, 0); value < has_value(task + 1, 0); value += 2) {
+bool Trail::imply_all_removed(LocalTask task, Literal but, Cause cause) {
+  for (Literal value = has_value(task, 0); value < has_value(LocalTask(task + 1), 0); value += 2) {
     if (value != but && !imply(negate(value), cause)) return false;
   }
   return true;
@@ -126,7 +126,7 @@ void Trail::set(Literal literal, Cause cause) {
   causes_[variable] = cause;
   places_[variable] = static_cast<std::uint32_t>(literals_.size());
   literals_.push_back(literal);
-  const std::uint32_t task = task_of(variable);
+  const LocalTask task = task_of(variable);
   if (variable < task_count_) {
     if (!is_negated(literal)) static_cast<void>(domains_.need(task));
   } else if (is_negated(literal)) {
@@ -167,7 +167,7 @@ void Trail::backtrack_to(std::uint32_t level) {
 }
 
 void Trail::append_reason(Literal literal, const Cause& cause, std::vector<Literal>& result) const {
-  const std::uint32_t task = task_of(variable_of(literal));
+  const LocalTask task = task_of(variable_of(literal));
   const auto is_other = [&](std::uint32_t index) { return has_value(task, index) != literal; };
   switch (cause.kind) {
     case Cause::Kind::given:
@@ -189,7 +189,7 @@ void Trail::append_reason(Literal literal, const Cause& cause, std::vector<Liter
       return;
     case Cause::Kind::requirement: {
       const Arc& arc = catalog_.arcs.items[cause.data];
-      const std::uint32_t source = arc.source - first_task_;
+      const LocalTask source = arc.source - first_task_;
       result.push_back(runs(source));
       const std::uint64_t* const kept = &catalog_.masks[arc.mask];
       append_removals(
@@ -226,12 +226,12 @@ bool Trail::propagate() {
 
 bool Trail::follow(Literal literal) {
   const std::uint32_t variable = variable_of(literal);
-  const std::uint32_t task = task_of(variable);
+  const LocalTask task = task_of(variable);
   if (variable >= task_count_) {
     if (is_negated(literal)) return follow_remaining_values(task);
     const Cause cause{Cause::Kind::literal, literal};
     return imply(runs(task), cause) && imply_all_removed(task, literal, cause) &&
-           follow_value(task, first_value_ + variable - task_count_);
+           follow_value(task, value_of(variable));
   }
   if (is_negated(literal)) {
     return imply_all_removed(task, none, {Cause::Kind::literal, literal}) &&
@@ -240,7 +240,7 @@ bool Trail::follow(Literal literal) {
   return follow_running(task) && follow_remaining_values(task);
 }
 
-bool Trail::follow_remaining_values(std::uint32_t task) {
+bool Trail::follow_remaining_values(LocalTask task) {
   if (domains_.count(task) == 0) return imply(negate(runs(task)), {Cause::Kind::no_value});
   if (!is_true(runs(task))) return true;
   if (domains_.count(task) > 1) return follow_choice(task);

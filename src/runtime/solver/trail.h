@@ -116,17 +116,20 @@ class Trail {
     std::uint32_t constraint = none;  ///< that applies, where only some are in force
   };
 
-  [[nodiscard]] static Literal runs(std::uint32_t task) { return 2 * task; }
+  [[nodiscard]] static Literal runs(LocalTask task) { return 2 * task; }
   [[nodiscard]] Literal has_value(ValueId value) const {
     return 2 * (task_count_ + value - first_value_);
   }
-  [[nodiscard]] Literal has_value(std::uint32_t task, std::uint32_t index) const {
-    return has_value(catalog_.values.begin[first_task_ + task] + index);
+  [[nodiscard]] Literal has_value(LocalTask task, std::uint32_t index) const {
+    return has_value(ValueId(catalog_.values.begin[first_task_ + task] + index));
   }
-  [[nodiscard]] std::uint32_t task_of(std::uint32_t variable) const {
-    return variable < task_count_
-               ? variable
-               : catalog_.value_tasks[first_value_ + variable - task_count_] - first_task_;
+  /// The value of a variable that says that a task has it.
+  [[nodiscard]] ValueId value_of(std::uint32_t variable) const {
+    return ValueId(first_value_ + variable - task_count_);
+  }
+  [[nodiscard]] LocalTask task_of(std::uint32_t variable) const {
+    return variable < task_count_ ? LocalTask(variable)
+                                  : catalog_.value_tasks[value_of(variable)] - first_task_;
   }
   [[nodiscard]] std::size_t variable_count() const { return variable_count_; }
 
@@ -153,8 +156,7 @@ class Trail {
   }
   /// Appends that the task does not have any of the removed values that matter, by index.
   template <typename Matters>
-  void append_removals(std::uint32_t task, const Matters& matters,
-                       std::vector<Literal>& reason) const;
+  void append_removals(LocalTask task, const Matters& matters, std::vector<Literal>& reason) const;
 
   void decide(Literal literal);
   [[nodiscard]] std::uint32_t level() const { return static_cast<std::uint32_t>(marks_.size()); }
@@ -202,19 +204,19 @@ class Trail {
 
   /// Begins anew with the group of the domains: nothing holds or was learned.
   void clear();
-  [[nodiscard]] bool imply_all_removed(std::uint32_t task, Literal but, Cause cause);
+  [[nodiscard]] bool imply_all_removed(LocalTask task, Literal but, Cause cause);
 
   // What follows from the constraints: where a task runs; where it does not, and has lost its
   // values; where it has the value; where it runs and several values are left.
-  [[nodiscard]] virtual bool follow_running(std::uint32_t task) = 0;
-  [[nodiscard]] virtual bool follow_not_running(std::uint32_t task) = 0;
-  [[nodiscard]] virtual bool follow_value(std::uint32_t task, ValueId value) = 0;
-  [[nodiscard]] virtual bool follow_choice(std::uint32_t task) = 0;
+  [[nodiscard]] virtual bool follow_running(LocalTask task) = 0;
+  [[nodiscard]] virtual bool follow_not_running(LocalTask task) = 0;
+  [[nodiscard]] virtual bool follow_value(LocalTask task, ValueId value) = 0;
+  [[nodiscard]] virtual bool follow_choice(LocalTask task) = 0;
 
   const CompiledCatalog& catalog_;
   Domains& domains_;
   Nogoods nogoods_;
-  TaskId first_task_ = 0;
+  TaskId first_task_;
   std::uint32_t task_count_ = 0;
 
  private:
@@ -227,9 +229,9 @@ class Trail {
   void set(Literal literal, Cause cause);
   void append_reason(Literal literal, const Cause& cause, std::vector<Literal>& result) const;
   [[nodiscard]] bool follow(Literal literal);
-  [[nodiscard]] bool follow_remaining_values(std::uint32_t task);
+  [[nodiscard]] bool follow_remaining_values(LocalTask task);
 
-  ValueId first_value_ = 0;
+  ValueId first_value_;
   std::size_t variable_count_ = 0;
   std::vector<std::int8_t> truth_;     ///< by literal: 1 true, -1 false, 0 undecided
   std::vector<std::uint32_t> levels_;  ///< by variable, as those below
@@ -247,7 +249,7 @@ class Trail {
 };
 
 template <typename Matters>
-void Trail::append_removals(std::uint32_t task, const Matters& matters,
+void Trail::append_removals(LocalTask task, const Matters& matters,
                             std::vector<Literal>& reason) const {
   const auto values = static_cast<std::uint32_t>(domains_.values(task).size());
   for (std::uint32_t index = 0; index < values; ++index) {

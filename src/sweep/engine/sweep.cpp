@@ -196,7 +196,7 @@ class Tally final : public SequenceListener {
     keep_slower(totals_.most_time, std::optional(candidate));
   }
 
-  void count_runs(std::uint32_t group, const State& state) {
+  void count_runs(GroupId group, const State& state) {
     for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1];
          ++task) {
       const bool is_running = state.is_running(task);

@@ -41,7 +41,7 @@ class SupportSearch {
     problem_.may_stop.assign(end - first_task_, 1);
     problem_.may_stop[task - first_task_] = 0;
     problem_.present.assign(end - first_task_, none);
-    for (ValueId value = catalog.values.begin[first_task_]; value < catalog.values.begin[end];
+    for (ValueId value(catalog.values.begin[first_task_]); value < catalog.values.begin[end];
          ++value) {
       if (!ruled_out[catalog.values.items[value].behavior]) flip(value);
     }
@@ -71,7 +71,7 @@ class SupportSearch {
   /// needs (solver/domains.h), so none of them is there in vain.
   [[nodiscard]] BehaviorSet support() const {
     BehaviorSet active;
-    for (std::uint32_t task = 0; task < assignment_.size(); ++task) {
+    for (LocalTask task(0); task < assignment_.size(); ++task) {
       if (assignment_[task] == none) continue;
       active.push_back(catalog_.values[first_task_ + task][assignment_[task]].behavior);
     }
@@ -114,7 +114,7 @@ class SupportSearch {
 /// The supports (sets of active behaviors) of the assignments that are known.
 class KnownSupports {
  public:
-  KnownSupports(const CompiledCatalog& catalog, std::uint32_t group)
+  KnownSupports(const CompiledCatalog& catalog, GroupId group)
       : first_(catalog.group_behaviors[group]),
         users_(catalog.group_behaviors[group + 1] - first_) {}
 
@@ -257,7 +257,7 @@ std::vector<bool> ruled_out_by(const CompiledCatalog& catalog,
   if (!situation) return out;
   std::vector<std::uint32_t> fixed(catalog.variables.size(), none);
   for (const VariableValue& one : situation->variables) fixed[one.variable] = one.value;
-  for (BehaviorId behavior = 0; behavior < out.size(); ++behavior) {
+  for (BehaviorId behavior(0); behavior < out.size(); ++behavior) {
     out[behavior] = !may_fit(catalog, behavior, fixed);
   }
   for (const SituationPart::Own& own : situation->behaviors) {

@@ -166,7 +166,7 @@ void Decisions::load_problem(const Question& question) {
   problem_.active.clear();
   for (std::uint32_t task = group.tasks.begin; task < group.tasks.end; ++task) {
     const BitRange values = model_.tasks()[task].values;
-    const std::uint32_t place = task - group.tasks.begin;
+    const LocalTask place(task - group.tasks.begin);
     Word* const words =
         problem_.domains.data() + (catalog.words[first + place] - catalog.words[first]);
     if (has_bit(question.must_run, task)) problem_.may_stop[place] = 0;
@@ -186,7 +186,7 @@ void Decisions::load_problem(const Question& question) {
                         problem_.active.end());
   problem_.requests.clear();
   for (const std::uint16_t task : question.requests) {
-    problem_.requests.push_back(task - group.tasks.begin);
+    problem_.requests.emplace_back(task - group.tasks.begin);
   }
 }
 

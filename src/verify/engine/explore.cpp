@@ -324,7 +324,7 @@ Stepper::Options share_memory(const ExplorationOptions& options, unsigned jobs,
 }
 
 void add_groups(const CompiledCatalog& catalog, const StateCondition& condition,
-                std::set<std::uint32_t>& groups) {
+                std::set<GroupId>& groups) {
   const auto add_task = [&](TaskId task) { groups.insert(catalog.tasks[task].group); };
   const auto add_behavior = [&](BehaviorId behavior) { groups.insert(catalog.group_of(behavior)); };
   for (const auto& running : condition.running) add_task(running.task);
@@ -337,7 +337,7 @@ void add_groups(const CompiledCatalog& catalog, const StateCondition& condition,
 }
 
 void add_groups_of_variables(const CompiledCatalog& catalog, const StateCondition& condition,
-                             std::set<std::uint32_t>& groups) {
+                             std::set<GroupId>& groups) {
   for (const VariableValue& value : condition.situation.variables) {
     for (const FittingValue& fitting : catalog.fitting_values) {
       if (fitting.variable == value.variable) groups.insert(catalog.group_of(fitting.behavior));
@@ -356,7 +356,7 @@ std::string title_of(const CompiledCatalog& catalog, const PropertyFile& file,
 
 }  // namespace
 
-Exploration explore(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
+Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
                     const Assumptions& assumptions, const std::vector<const Property*>& properties,
                     const ExplorationOptions& options) {
   Exploration result;
@@ -428,7 +428,7 @@ bool Verification::is_complete() const {
 }
 
 PropertyScope scope_of(const CompiledCatalog& catalog, const Property& property) {
-  std::set<std::uint32_t> groups;
+  std::set<GroupId> groups;
   if (property.task != none) groups.insert(catalog.tasks[property.task].group);
   add_groups(catalog, property.condition, groups);
   if (property.when) add_groups(catalog, *property.when, groups);
@@ -449,8 +449,8 @@ std::vector<Exploration> explore_groups(const CompiledCatalog& catalog,
                                         const Assumptions& assumptions,
                                         const ExplorationOptions& options) {
   std::vector<Exploration> explorations;
-  for (std::uint32_t group = 0; group < catalog.group_count(); ++group) {
-    const std::vector<std::uint32_t> groups{group};
+  for (GroupId group(0); group < catalog.group_count(); ++group) {
+    const std::vector<GroupId> groups{group};
     explorations.push_back(explore(catalog, groups, assumptions, {}, options));
   }
   return explorations;
@@ -480,7 +480,7 @@ Verification verify_properties(const CompiledCatalog& catalog, const PropertyFil
   for (const auto& [scope, places] : by_scope) {
     std::vector<const Property*> properties;
     for (const std::size_t place : places) properties.push_back(&file.properties[place]);
-    const std::vector<std::uint32_t>& explored = scope.groups;
+    const std::vector<GroupId>& explored = scope.groups;
     result.explorations.push_back(
         explore(catalog, explored, file.assumptions, properties, options));
     const Exploration& exploration = result.explorations.back();

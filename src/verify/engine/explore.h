@@ -30,8 +30,7 @@ struct ExplorationOptions {
   bool reduce = false;
   /// Called now and then, by one thread at a time; false ends the exploration as a limit does. May
   /// be empty.
-  std::function<bool(const std::vector<std::uint32_t>& groups, const ExplorationProgress&)>
-      on_progress;
+  std::function<bool(const std::vector<GroupId>& groups, const ExplorationProgress&)> on_progress;
 };
 
 /// What was found out about one property.
@@ -46,7 +45,7 @@ struct Verdict {
 
 /// The result of the exploration of some groups.
 struct Exploration {
-  std::vector<std::uint32_t> groups;  ///< ascending
+  std::vector<GroupId> groups;        ///< ascending
   bool complete = false;              ///< false: a limit ended it
   bool reduced = false;               ///< see ExplorationOptions::reduce
   std::optional<ExplorationEnd> end;  ///< which one; if not complete
@@ -81,7 +80,7 @@ struct Exploration {
 /// are about tasks and behaviors of these groups only; the variables that they name are part of the
 /// state.
 [[nodiscard]] Exploration explore(const CompiledCatalog& catalog,
-                                  const std::vector<std::uint32_t>& groups,
+                                  const std::vector<GroupId>& groups,
                                   const Assumptions& assumptions,
                                   const std::vector<const Property*>& properties,
                                   const ExplorationOptions& options);
@@ -118,7 +117,7 @@ struct Verification {
 struct PropertyScope {
   /// Ascending: those of its tasks and behaviors; if there are none, those whose behaviors name its
   /// variables.
-  std::vector<std::uint32_t> groups;
+  std::vector<GroupId> groups;
   /// The variables that it names, but no behavior of these groups does.
   std::set<std::uint32_t> variables;
 

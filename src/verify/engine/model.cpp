@@ -16,15 +16,16 @@ namespace {
 constexpr std::size_t most_misfit_words = std::size_t{1} << 24U;
 
 /// By number below a count: whether a list has it.
-std::vector<bool> members_of(const std::vector<std::uint32_t>& list, std::size_t count) {
+template <typename Number>
+std::vector<bool> members_of(const std::vector<Number>& list, std::size_t count) {
   std::vector<bool> members(count, false);
-  for (const std::uint32_t number : list) members[number] = true;
+  for (const Number number : list) members[number] = true;
   return members;
 }
 
 }  // namespace
 
-Model::Model(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
+Model::Model(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
              const Assumptions& assumptions, const std::set<std::uint32_t>& variables)
     : catalog_(catalog), assumptions_(assumptions) {
   add_groups(groups);
@@ -40,8 +41,8 @@ Model::Model(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& g
   add_moves();
 }
 
-void Model::add_groups(const std::vector<std::uint32_t>& groups) {
-  for (const std::uint32_t number : groups) {
+void Model::add_groups(const std::vector<GroupId>& groups) {
+  for (const GroupId number : groups) {
     Group group;
     group.number = number;
     group.tasks.begin = static_cast<std::uint32_t>(tasks_.size());
@@ -257,10 +258,10 @@ Model::Rank Model::rank_of(std::int32_t priority) const {
 }
 
 std::uint32_t Model::find_task(TaskId task) const {
-  const std::uint32_t group = catalog_.tasks[task].group;
+  const GroupId group = catalog_.tasks[task].group;
   const auto found =
       std::lower_bound(groups_.begin(), groups_.end(), group,
-                       [](const Group& one, std::uint32_t other) { return one.number < other; });
+                       [](const Group& one, GroupId other) { return one.number < other; });
   if (found == groups_.end() || found->number != group) return none;
   return found->tasks.begin + (task - catalog_.group_tasks[group]);
 }

@@ -80,7 +80,7 @@ class Model {
   static constexpr std::size_t most_in_cell = 65'000;
 
   struct Task {
-    TaskId id = 0;
+    TaskId id;
     std::uint32_t group = 0;  ///< place in groups()
     BitRange values;
     bool start_on_request = true;
@@ -92,14 +92,14 @@ class Model {
     std::vector<std::uint32_t> reactive_rivals;  ///< numbers among the reactive tasks
   };
   struct Group {
-    std::uint32_t number = 0;  ///< in the catalog
+    GroupId number;  ///< in the catalog
     BitRange tasks;
     BitRange values;
     BitRange behaviors;
     std::vector<std::uint32_t> reactive;  ///< its reactive tasks, by their numbers
   };
   struct Behavior {
-    BehaviorId id = 0;
+    BehaviorId id;
     std::uint32_t group = 0;  ///< place in groups()
     std::vector<std::uint32_t> values;
     std::uint32_t own = none;  ///< its number among those whose own(b) may change
@@ -144,7 +144,7 @@ class Model {
 
   /// `groups` are ascending. `variables` are part of the state even if no behavior of the groups
   /// names them. The catalog and the assumptions must outlive the model.
-  Model(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
+  Model(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
         const Assumptions& assumptions, const std::set<std::uint32_t>& variables = {});
 
   [[nodiscard]] const CompiledCatalog& catalog() const { return catalog_; }
@@ -213,7 +213,7 @@ class Model {
   void unpack(const std::uint32_t* packed, std::uint16_t* cells) const;
 
  private:
-  void add_groups(const std::vector<std::uint32_t>& groups);
+  void add_groups(const std::vector<GroupId>& groups);
   [[nodiscard]] bool fits_into_cells() const;
   void add_behaviors(Group& group);
   void add_rivals();

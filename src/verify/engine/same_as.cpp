@@ -35,11 +35,11 @@ using Number = StateStore::Number;
 /// have them. From TaskId to TaskId, BehaviorId to BehaviorId, place to place.
 struct Translation {
   Translation(const CompiledCatalog& from, const CompiledCatalog& to) {
-    for (TaskId task = 0; task < from.tasks.size(); ++task) {
+    for (TaskId task(0); task < from.tasks.size(); ++task) {
       const auto found = to.find_task(from.name_of_task(task));
       tasks.push_back(found ? to.task_ids[*found] : none);
     }
-    for (BehaviorId behavior = 0; behavior < from.behaviors.size(); ++behavior) {
+    for (BehaviorId behavior(0); behavior < from.behaviors.size(); ++behavior) {
       const auto found = to.find_behavior(from.name_of_behavior(behavior));
       behaviors.push_back(found ? to.behavior_ids[*found] : none);
     }
@@ -109,10 +109,10 @@ SituationPart translate(const SituationPart& part, const Translation& to, bool& 
 }
 
 /// The numbers of another catalog for those of a list, without what it does not have.
-std::vector<std::uint32_t> translate(const std::vector<std::uint32_t>& from,
-                                     const std::vector<std::uint32_t>& to) {
-  std::vector<std::uint32_t> result;
-  for (const std::uint32_t number : from) {
+template <typename Number>
+std::vector<Number> translate(const std::vector<Number>& from, const std::vector<Number>& to) {
+  std::vector<Number> result;
+  for (const Number number : from) {
     if (to[number] != none) result.push_back(to[number]);
   }
   return result;
@@ -181,8 +181,8 @@ Script translate(const Script& script, const CompiledCatalog& from, const Compil
 
 /// Groups of both catalogs that are explored together.
 struct GroupPair {
-  std::vector<std::uint32_t> old_groups;
-  std::vector<std::uint32_t> new_groups;
+  std::vector<GroupId> old_groups;
+  std::vector<GroupId> new_groups;
 };
 
 std::vector<GroupPair> join_groups(const CompiledCatalog& old_catalog,
@@ -190,11 +190,11 @@ std::vector<GroupPair> join_groups(const CompiledCatalog& old_catalog,
   const auto count = static_cast<std::uint32_t>(new_catalog.group_count());
   const auto old_count = static_cast<std::uint32_t>(old_catalog.group_count());
   DisjointSets sets(std::size_t{count} + old_count);
-  for (TaskId task = 0; task < new_catalog.tasks.size(); ++task) {
+  for (TaskId task(0); task < new_catalog.tasks.size(); ++task) {
     if (to_old.tasks[task] == none) continue;
     sets.join(new_catalog.tasks[task].group, count + old_catalog.tasks[to_old.tasks[task]].group);
   }
-  for (BehaviorId behavior = 0; behavior < new_catalog.behaviors.size(); ++behavior) {
+  for (BehaviorId behavior(0); behavior < new_catalog.behaviors.size(); ++behavior) {
     if (to_old.behaviors[behavior] == none) continue;
     sets.join(new_catalog.group_of(behavior),
               count + old_catalog.group_of(to_old.behaviors[behavior]));
@@ -203,7 +203,8 @@ std::vector<GroupPair> join_groups(const CompiledCatalog& old_catalog,
   std::map<std::uint32_t, GroupPair> pairs;
   for (std::uint32_t place = 0; place < numbers.size(); ++place) {
     GroupPair& pair = pairs[numbers[place]];
-    place < count ? pair.new_groups.push_back(place) : pair.old_groups.push_back(place - count);
+    place < count ? pair.new_groups.emplace_back(place)
+                  : pair.old_groups.emplace_back(place - count);
   }
   std::vector<GroupPair> result;
   result.reserve(pairs.size());
@@ -264,7 +265,7 @@ struct ModelPair {
   [[nodiscard]] static Key key_of(const Model& model, const Model::Choice& choice,
                                   const Translation* to_other) {
     const Move::Kind kind = choice.move.kind;
-    const auto id_of = [&](std::uint32_t id, std::vector<std::uint32_t> Translation::*ids) {
+    const auto id_of = [&]<typename Number>(Number id, std::vector<Number> Translation::*ids) {
       return to_other == nullptr ? id : (to_other->*ids)[id];
     };
     switch (kind) {
@@ -466,8 +467,9 @@ class DifferenceVisitor {
   [[nodiscard]] bool run_alike() const {
     const auto behavior_in = [](const Model& model, const std::vector<std::uint16_t>& cells,
                                 std::uint32_t task) {
-      if (task == none || cells[task] == 0) return none;
-      return model.behavior_of(model.tasks()[task].values.begin + cells[task] - 1U);
+      return task == none || cells[task] == 0
+                 ? none
+                 : model.behavior_of(model.tasks()[task].values.begin + cells[task] - 1U);
     };
     return std::all_of(models_.tasks.begin(), models_.tasks.end(), [&](const auto& task) {
       const std::uint32_t ours = behavior_in(models_.new_model, new_cells_, task.first);

@@ -243,7 +243,7 @@ Step step_of(const Move& move) {
   return step;
 }
 
-Witness make_witness(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
+Witness make_witness(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
                      const Assumptions& assumptions, const std::vector<Move>& moves,
                      const Property* property, const std::string& comment) {
   const std::set<std::uint32_t> variables =
@@ -284,7 +284,7 @@ Witness make_witness(const CompiledCatalog& catalog, const std::vector<std::uint
   return witness;
 }
 
-Script make_script(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
+Script make_script(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
                    const Assumptions& assumptions, const std::vector<Move>& moves,
                    Microseconds pause) {
   const Model model(catalog, groups, assumptions);

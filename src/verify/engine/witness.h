@@ -25,15 +25,14 @@ struct Witness {
 /// end; null: the values of all tasks and, if the last move is a start or a stop, its outcome.
 /// `comment`: the first lines of the text, without "# ".
 [[nodiscard]] Witness make_witness(const CompiledCatalog& catalog,
-                                   const std::vector<std::uint32_t>& groups,
+                                   const std::vector<GroupId>& groups,
                                    const Assumptions& assumptions, const std::vector<Move>& moves,
                                    const Property* property, const std::string& comment);
 
 /// The same moves, without expectations, on one step each, timeouts being off: a move of the queue
 /// is an empty expectation at the time of the next move, and so is a step more at the end. `pause`:
 /// between two moves where nothing is in the queue.
-[[nodiscard]] Script make_script(const CompiledCatalog& catalog,
-                                 const std::vector<std::uint32_t>& groups,
+[[nodiscard]] Script make_script(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
                                  const Assumptions& assumptions, const std::vector<Move>& moves,
                                  Microseconds pause);
 

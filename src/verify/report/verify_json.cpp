@@ -22,11 +22,13 @@ constexpr auto result_word = named(
 
 /// A task or a behavior, by its place in the catalog.
 struct TaskPlaces : TaskNames {
+  using Number = std::uint32_t;
   static std::string_view name(const CompiledCatalog& catalog, std::uint32_t place) {
     return catalog.task_names[place];
   }
 };
 struct BehaviorPlaces : BehaviorNames {
+  using Number = std::uint32_t;
   static std::string_view name(const CompiledCatalog& catalog, std::uint32_t place) {
     return catalog.behavior_names[place];
   }

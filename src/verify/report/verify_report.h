@@ -54,7 +54,7 @@ struct VerifyPart {
 
 /// The cut sets of a task up to some order.
 struct TaskCutSets {
-  TaskId task = 0;
+  TaskId task;
   std::uint32_t order = 1;
   CutSets found;
 };

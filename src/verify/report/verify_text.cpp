@@ -148,7 +148,7 @@ class GroupText {
 
  private:
   void add_group(const Exploration& exploration) {
-    const std::uint32_t group = exploration.groups.front();
+    const GroupId group = exploration.groups.front();
     std::vector<std::uint32_t> tasks;  // by their places in the catalog
     for (TaskId id = catalog_.group_tasks[group]; id < catalog_.group_tasks[group + 1]; ++id) {
       tasks.push_back(catalog_.tasks[id].catalog_index);
@@ -178,7 +178,7 @@ class GroupText {
       if (!has_first(exploration.runs, task)) idle.push_back(task);
     }
     add_row(never + " run", names_of(idle));
-    const std::uint32_t group = exploration.groups.front();
+    const GroupId group = exploration.groups.front();
     std::vector<std::uint32_t> behaviors;  // not active
     for (BehaviorId id = catalog_.group_behaviors[group]; id < catalog_.group_behaviors[group + 1];
          ++id) {
@@ -349,7 +349,7 @@ void add_properties(const VerifyResult& result, const VerifyPart& part, Text& te
   for (const Exploration& exploration : part.verification.explorations) {
     if (exploration.complete) continue;
     const std::string groups =
-        join(exploration.groups, ", ", [](std::uint32_t group) { return std::to_string(group); });
+        join(exploration.groups, ", ", [](GroupId group) { return std::to_string(group); });
     const std::string title =
         (exploration.groups.size() == 1 ? "exploration of group " : "exploration of groups ") +
         groups;

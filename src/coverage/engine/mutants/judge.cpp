@@ -9,8 +9,6 @@
 // Timeouts are not part of states. For these, states in which the timeout would run are visited,
 // and a script waits there; if nothing shows, and nothing is proven, the mutant is undecided.
 
-#include "coverage/engine/mutants/mutants.h"
-
 #include <algorithm>
 #include <array>
 #include <set>
@@ -25,6 +23,7 @@
 #include "core/script/script.h"
 #include "core/yaml/document.h"
 #include "coverage/engine/goal_proof.h"
+#include "coverage/engine/mutants/mutants.h"
 #include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
@@ -179,7 +178,7 @@ std::optional<std::string> find_distinguishing_script(const CompiledCatalog& ori
 /// Whether other timeouts always come before these: then they never end anything.
 bool never_time_out(const CompiledCatalog& catalog, const std::vector<TimeDifference>& differences,
                     const Assumptions& assumptions, const ExplorationOptions& limited) {
-  const std::uint32_t group = catalog.tasks[catalog.task_ids[differences.front().task]].group;
+  const GroupId group = catalog.tasks[catalog.task_ids[differences.front().task]].group;
   GoalProofOptions options;
   options.group = group;
   options.search.max_states = limited.limits.max_states;
@@ -284,12 +283,12 @@ ExplorationOptions MutantJudge::exploration_options() const {
   ExplorationOptions options;
   options.limits = options_.limits;
   options.reduce = true;
-  options.on_progress = [this](const std::vector<std::uint32_t>& /*groups*/,
+  options.on_progress = [this](const std::vector<GroupId>& /*groups*/,
                                const ExplorationProgress& /*progress*/) { return !is_stopped(); };
   return options;
 }
 
-std::uint32_t MutantJudge::group_of(const Mutant& mutant) const {
+GroupId MutantJudge::group_of(const Mutant& mutant) const {
   return mutant.task != Mutant::none ? catalog_.tasks[catalog_.task_ids[mutant.task]].group
                                      : catalog_.group_of(catalog_.behavior_ids[mutant.behavior]);
 }
@@ -339,7 +338,7 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
   // Nothing fails, and so nothing times out.
   if (differences.empty() || !assumptions_.failures) return;
   bool is_any_reachable = false;
-  const std::vector<std::uint32_t> groups = {group_of(mutant)};
+  const std::vector<GroupId> groups = {group_of(mutant)};
   const Exploration found = explore(catalog_, groups, assumptions_, asked, exploration_options());
   for (std::size_t place = 0; place < properties.size(); ++place) {
     if (!found.verdicts[place].has_script) continue;

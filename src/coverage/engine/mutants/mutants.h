@@ -128,7 +128,7 @@ class MutantJudge {
 
  private:
   [[nodiscard]] bool is_stopped() const { return options_.is_stopped && options_.is_stopped(); }
-  [[nodiscard]] std::uint32_t group_of(const Mutant& mutant) const;
+  [[nodiscard]] GroupId group_of(const Mutant& mutant) const;
   void compare(const Mutant& mutant, const CompiledCatalog& changed, MutantVerdict& verdict) const;
   void compare_times(const Mutant& mutant, const Catalog& changed_source,
                      const CompiledCatalog& changed, MutantVerdict& verdict) const;
