@@ -110,7 +110,7 @@ std::vector<std::string_view> names_of_both(const CompiledCatalog& before,
 std::vector<Place> places_of(const CompiledCatalog& catalog,
                              const std::vector<std::string_view>& names) {
   std::vector<Place> places;
-  for (TaskId task = 0; task < catalog.tasks.size(); ++task) {
+  for (TaskId task(0); task < catalog.tasks.size(); ++task) {
     const auto found = std::lower_bound(names.begin(), names.end(), catalog.name_of_task(task));
     places.push_back(static_cast<Place>(found - names.begin()));
   }

@@ -10,11 +10,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,30 +34,6 @@ using yaml::Kind;
 using yaml::Node;
 using yaml::Span;
 
-constexpr std::string_view blanks_and_breaks = " \t\r\n";
-
-/// Whether a comment for this program stands above a line: it would be about what follows.
-bool has_control_above(std::string_view text, std::size_t line_begin) {
-  std::string_view above = text.substr(0, line_begin);
-  while (!above.empty()) {
-    above.remove_suffix(1);                           // the line break
-    const std::size_t begin = above.rfind('\n') + 1;  // 0 if there is none
-    const std::string_view line = above.substr(begin);
-    above = above.substr(0, begin);
-    const std::size_t content = line.find_first_not_of(" \t\r");
-    if (content == std::string_view::npos) continue;
-    if (line[content] != '#') return false;
-    if (line.find("cbc:", content) != std::string_view::npos) return true;
-  }
-  return false;
-}
-
-/// Whether a comment may stand in a piece of a text. Any '#' counts, since parsers differ in what
-/// begins one.
-bool may_have_comment(std::string_view text, const Span& span) {
-  return text.substr(span.begin, span.end - span.begin).find('#') != std::string_view::npos;
-}
-
 /// A comma between two items, and nothing else but blanks and line breaks.
 bool is_one_comma(std::string_view gap) {
   return std::count(gap.begin(), gap.end(), ',') == 1 &&
@@ -63,28 +41,8 @@ bool is_one_comma(std::string_view gap) {
                      [](char byte) { return byte == ',' || is_blank(byte); });
 }
 
-/// A line of a text: its indentation, and its first byte that is not blank, if there is one.
-struct Line {
-  std::size_t begin = 0;
-  std::size_t end = 0;      ///< with its line break
-  std::size_t content = 0;  ///< `end` if there is none
-};
-
-Line line_at(std::string_view text, std::size_t begin) {
-  Line line;
-  line.begin = begin;
-  const std::size_t line_break = text.find('\n', begin);
-  line.end = line_break == std::string_view::npos ? text.size() : line_break + 1;
-  line.content = std::min(text.find_first_not_of(blanks_and_breaks, begin), line.end);
-  return line;
-}
-
-bool is_dash(std::string_view text, std::size_t offset) {
-  return text[offset] == '-' && (offset + 1 == text.size() || is_blank(text[offset + 1]));
-}
-
 /// Finds the piece of a text to delete for an entry of a list to be removed, and nothing else: the
-/// lines of an entry with a dash; in brackets, the entry and one comma.
+/// lines of an entry with a dash; in a list of names in brackets, the name and one comma.
 class EntrySpans {
  public:
   struct Entry {
@@ -94,171 +52,135 @@ class EntrySpans {
 
   /// `document` is that of `text`, which has no byte order mark; `positions` are those in it. All
   /// three must outlive this object.
-  EntrySpans(std::string_view text, const yaml::Document& document, const PositionMap& positions);
+  EntrySpans(std::string_view text, const yaml::Document& document, const PositionMap& positions)
+      : text_(text), positions_(positions), lines_(yaml::split_lines(text, &document)) {
+    index(document.root());
+  }
 
   /// The entry that begins at a place. None if the place has more than one meaning because of
   /// aliases.
-  [[nodiscard]] std::optional<Entry> find(const Position& begin) const;
+  [[nodiscard]] std::optional<Entry> find(const Position& begin) const {
+    const auto found = entries_.find(begin);
+    return found == entries_.end() ? std::nullopt : std::optional(found->second);
+  }
 
   /// The piece to delete. None if a comment or an anchor would be deleted with it, or if the layout
   /// is unusual.
-  [[nodiscard]] std::optional<Span> span_of(const Entry& entry) const;
+  [[nodiscard]] std::optional<Span> span_of(const Entry& entry) const {
+    const std::optional<Span> span =
+        first_byte(*entry.list) == '[' ? name_and_comma(entry) : lines_of(entry);
+    // Any '#' counts, since parsers differ in what begins a comment.
+    if (!span || text_of(*span).find('#') != std::string_view::npos) return std::nullopt;
+    if (!lies_within(*entry.list->items[entry.place], *span)) return std::nullopt;
+    return span;
+  }
 
  private:
-  void index(const yaml::Node& node);
-  [[nodiscard]] char first_byte(const yaml::Node& node) const;
-  [[nodiscard]] bool is_in_brackets(const yaml::Node& node) const;
-  [[nodiscard]] bool lies_within(const yaml::Node& node, const Span& span) const;
-  [[nodiscard]] std::optional<std::size_t> end_of(const yaml::Node& node) const;
-  [[nodiscard]] std::optional<Span> lines_of(const Entry& entry) const;
-  [[nodiscard]] std::optional<Span> item_and_comma(const Entry& entry) const;
+  void index(const Node& node) {
+    if (node.shared) return;
+    for (std::size_t place = 0; place < node.items.size(); ++place) {
+      const Node& item = *node.items[place];
+      if (!item.shared) entries_[item.range.begin] = {&node, place};
+      index(item);
+    }
+    for (const auto& entry : node.entries) index(*entry.second);
+  }
+
+  [[nodiscard]] std::string_view text_of(const Span& span) const {
+    return text_.substr(span.begin, span.end - span.begin);
+  }
+
+  [[nodiscard]] char first_byte(const Node& node) const {
+    const std::size_t begin = positions_.offset(node.range.begin);
+    return begin < text_.size() ? text_[begin] : '\0';
+  }
+
+  /// Whether all parts of a value lie in a span. The target of an alias may be anywhere but in the
+  /// span, as it would be deleted with it.
+  [[nodiscard]] bool lies_within(const Node& node, const Span& span) const {
+    const std::size_t begin = positions_.offset(node.range.begin);
+    const bool begins_within = span.begin <= begin && begin < span.end;
+    if (node.shared) return !begins_within;
+    if (!begins_within || positions_.offset(node.range.end) > span.end) return false;
+    // Where a block of text ends is not known.
+    const char first = first_byte(node);
+    if (node.kind == Kind::scalar && !node.plain && (first == '|' || first == '>')) return false;
+    return std::all_of(node.items.begin(), node.items.end(),
+                       [&](const Node* item) { return lies_within(*item, span); }) &&
+           std::all_of(node.entries.begin(), node.entries.end(), [&](const auto& entry) {
+             return lies_within(*entry.first, span) && lies_within(*entry.second, span);
+           });
+  }
+
+  /// Whether a comment for this program stands above a line: it would be about what follows.
+  [[nodiscard]] bool has_control_above(std::size_t line) const {
+    while (line-- > 0 && !lines_[line].has_content) {
+      const auto& comment = lines_[line].comment;
+      if (comment && text_of({*comment, lines_[line].end}).find("cbc:") != std::string_view::npos) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// From the line with the dash to the last one that is deeper. Blank lines and comments after
+  /// that belong to what follows.
+  [[nodiscard]] std::optional<Span> lines_of(const Entry& entry) const {
+    const Position& place = entry.list->items[entry.place]->range.begin;
+    const std::size_t first = place.line - 1;
+    const std::optional<std::size_t> depth = lines_[first].depth;
+    const std::size_t dash = lines_[first].begin + depth.value_or(0) / 2;
+    const std::size_t begin = positions_.offset(place);
+    if (!depth || text_[dash] != '-' || dash >= begin || has_control_above(first) ||
+        text_.find_first_not_of(" \t", dash + 1) != begin) {
+      return std::nullopt;
+    }
+    const bool is_last = entry.place + 1 == entry.list->items.size();
+    std::size_t end = first + 1;
+    for (std::size_t next = end; next < lines_.size(); ++next) {
+      const yaml::SourceLine& line = lines_[next];
+      if (!line.has_content) continue;
+      if (!line.depth || *line.depth > *depth) {
+        end = next + 1;
+        continue;
+      }
+      // What follows must be the next entry, or something else after the last one.
+      const char byte = text_[line.begin + *line.depth / 2];
+      const bool closes = byte == ',' || byte == ']' || byte == '}';
+      if (closes || (*line.depth == *depth) == is_last) return std::nullopt;
+      return Span{lines_[first].begin, lines_[end].begin};
+    }
+    if (!is_last) return std::nullopt;
+    return Span{lines_[first].begin, end < lines_.size() ? lines_[end].begin : text_.size()};
+  }
+
+  /// With the comma before it; the first name with the one after it.
+  [[nodiscard]] std::optional<Span> name_and_comma(const Entry& entry) const {
+    const std::vector<const Node*>& items = entry.list->items;
+    const bool are_names = std::all_of(items.begin(), items.end(), [](const Node* item) {
+      return item->kind == Kind::scalar && !item->shared;
+    });
+    if (!are_names || items.size() < 2) return std::nullopt;
+    const auto begin = [&](std::size_t place) {
+      return positions_.offset(items[place]->range.begin);
+    };
+    const auto end = [&](std::size_t place) { return positions_.offset(items[place]->range.end); };
+    const std::size_t second = std::max<std::size_t>(entry.place, 1);
+    const Span gap{end(second - 1), begin(second)};
+    if (gap.end < gap.begin || !is_one_comma(text_of(gap))) return std::nullopt;
+    if (entry.place == 0) return Span{begin(0), begin(1)};
+    const std::size_t after = text_.find_first_not_of(" \t\r\n", end(entry.place));
+    if (after == std::string_view::npos || (text_[after] != ',' && text_[after] != ']')) {
+      return std::nullopt;
+    }
+    return Span{gap.begin, end(entry.place)};
+  }
 
   std::string_view text_;
   const PositionMap& positions_;
+  const std::vector<yaml::SourceLine> lines_;
   std::map<Position, Entry> entries_;
 };
-
-EntrySpans::EntrySpans(std::string_view text, const yaml::Document& document,
-                       const PositionMap& positions)
-    : text_(text), positions_(positions) {
-  index(document.root());
-}
-
-void EntrySpans::index(const Node& node) {
-  if (node.shared) return;
-  for (std::size_t place = 0; place < node.items.size(); ++place) {
-    const Node& item = *node.items[place];
-    if (!item.shared) entries_[item.range.begin] = {&node, place};
-    index(item);
-  }
-  for (const auto& entry : node.entries) index(*entry.second);
-}
-
-std::optional<EntrySpans::Entry> EntrySpans::find(const Position& begin) const {
-  const auto found = entries_.find(begin);
-  return found == entries_.end() ? std::nullopt : std::optional(found->second);
-}
-
-std::optional<Span> EntrySpans::span_of(const Entry& entry) const {
-  const std::optional<Span> span =
-      is_in_brackets(*entry.list) ? item_and_comma(entry) : lines_of(entry);
-  if (!span || may_have_comment(text_, *span)) return std::nullopt;
-  if (!lies_within(*entry.list->items[entry.place], *span)) return std::nullopt;
-  return span;
-}
-
-char EntrySpans::first_byte(const Node& node) const {
-  const std::size_t begin = positions_.offset(node.range.begin);
-  return begin < text_.size() ? text_[begin] : '\0';
-}
-
-bool EntrySpans::is_in_brackets(const Node& node) const {
-  return first_byte(node) == '[' || first_byte(node) == '{';
-}
-
-/// Whether a value lies in a span as a whole. The target of an alias may be anywhere but in the
-/// span, as it would be deleted with it.
-bool EntrySpans::lies_within(const Node& node, const Span& span) const {
-  const std::size_t begin = positions_.offset(node.range.begin);
-  const bool begins_within = span.begin <= begin && begin < span.end;
-  if (node.shared) return !begins_within;
-  if (!begins_within) return false;
-  if (node.kind == Kind::scalar) {
-    // Where a block of text ends is not known.
-    if (!node.plain && (first_byte(node) == '|' || first_byte(node) == '>')) return false;
-    return positions_.offset(node.range.end) <= span.end;
-  }
-  if (node.kind != Kind::null && is_in_brackets(node)) {
-    const std::optional<std::size_t> end = end_of(node);
-    if (!end || *end > span.end) return false;
-  }
-  return std::all_of(node.items.begin(), node.items.end(),
-                     [&](const Node* item) { return lies_within(*item, span); }) &&
-         std::all_of(node.entries.begin(), node.entries.end(), [&](const auto& entry) {
-           return lies_within(*entry.first, span) && lies_within(*entry.second, span);
-         });
-}
-
-/// One past a scalar or a collection in brackets, if its end can be found.
-std::optional<std::size_t> EntrySpans::end_of(const Node& node) const {
-  if (node.shared || node.kind == Kind::null) return std::nullopt;
-  if (node.kind == Kind::scalar) return positions_.offset(node.range.end);
-  if (!is_in_brackets(node)) return std::nullopt;
-
-  std::size_t end = positions_.offset(node.range.begin) + 1;
-  if (!node.items.empty() || !node.entries.empty()) {
-    const Node* last = node.items.empty() ? node.entries.back().second : node.items.back();
-    // A value that is not written out has the place of its key.
-    const bool is_missing = last->kind == Kind::null && !node.entries.empty() &&
-                            last->range == node.entries.back().first->range;
-    const std::optional<std::size_t> last_end =
-        last->kind == Kind::null ? positions_.offset(last->range.end) : end_of(*last);
-    if (!last_end || (last->kind == Kind::null && !node.items.empty())) return std::nullopt;
-    end = yaml::find_content(text_, *last_end);
-    if (is_missing && end < text_.size() && text_[end] == ':') ++end;
-    end = yaml::find_content(text_, end);
-    if (end < text_.size() && text_[end] == ',') ++end;
-  }
-  end = yaml::find_content(text_, end);
-  const char bracket = node.kind == Kind::sequence ? ']' : '}';
-  if (end >= text_.size() || text_[end] != bracket) return std::nullopt;
-  return end + 1;
-}
-
-/// From the line with the dash to the last one that is indented deeper. Blank lines and comments
-/// after that belong to what follows.
-std::optional<Span> EntrySpans::lines_of(const Entry& entry) const {
-  const std::size_t begin = positions_.offset(entry.list->items[entry.place]->range.begin);
-  const Position line_begin{entry.list->items[entry.place]->range.begin.line, 1};
-  const Line first = line_at(text_, positions_.offset(line_begin));
-  const std::size_t dash = first.content;
-  if (dash >= begin || !is_dash(text_, dash)) return std::nullopt;
-  if (has_control_above(text_, first.begin)) return std::nullopt;
-  if (text_.find_first_not_of(blanks_and_breaks, dash + 1) != begin) return std::nullopt;
-
-  const std::size_t indentation = dash - first.begin;
-  const bool is_last = entry.place + 1 == entry.list->items.size();
-  std::size_t end = first.end;
-  for (Line line = first; line.end < text_.size();) {
-    line = line_at(text_, line.end);
-    if (line.content == line.end || text_[line.content] == '#') continue;
-    const std::size_t depth = line.content - line.begin;
-    if (depth > indentation) {
-      end = line.end;
-      continue;
-    }
-    // What follows must be the next entry, or something else after the last one.
-    const bool is_next = depth == indentation && is_dash(text_, line.content);
-    const bool closes = std::string_view(",]}").find(text_[line.content]) != std::string_view::npos;
-    if (is_next == is_last || closes) return std::nullopt;
-    return Span{first.begin, end};
-  }
-  return is_last ? std::optional(Span{first.begin, end}) : std::nullopt;
-}
-
-/// With the comma before it; the first item with the one after it.
-std::optional<Span> EntrySpans::item_and_comma(const Entry& entry) const {
-  const std::vector<const Node*>& items = entry.list->items;
-  const Node& item = *items[entry.place];
-  const std::size_t begin = positions_.offset(item.range.begin);
-  const std::optional<std::size_t> end = end_of(item);
-  if (!end) return std::nullopt;
-  if (entry.place == 0) {
-    if (items.size() == 1 || items[1]->shared) return std::nullopt;
-    const std::size_t next = positions_.offset(items[1]->range.begin);
-    if (next < *end || !is_one_comma(text_.substr(*end, next - *end))) return std::nullopt;
-    return Span{begin, next};
-  }
-  const std::optional<std::size_t> before = end_of(*items[entry.place - 1]);
-  if (!before || *before > begin || !is_one_comma(text_.substr(*before, begin - *before))) {
-    return std::nullopt;
-  }
-  const std::size_t after = text_.find_first_not_of(blanks_and_breaks, *end);
-  if (after == std::string_view::npos || (text_[after] != ',' && text_[after] != ']')) {
-    return std::nullopt;
-  }
-  return Span{*before, *end};
-}
 
 /// An edit whose place in the text is known.
 struct PlacedEdit {
