@@ -139,12 +139,13 @@ TEST_F(WriteMissing, NamesTheCatalogByItsPathFromTheFolder) {
   EXPECT_EQ(all.status, 0) << all.out << all.err;
 }
 
-/// Names, and paths, with quotes and characters that do not show.
+/// Names, and paths, with characters that YAML and JSON write in different ways: tags, musical
+/// signs.
 TEST_F(WriteMissing, WritesScriptsThatCanBeReadWhateverTheNamesAre) {
-  fs::create_directory(scratch / "it's; echo \u200B");
-  scratch.write("it's; echo \u200B/robot.yaml",
-                "behaviors:\n- {behavior: B, task: 'T\u200B''\"\\'}\n");
-  const Result written = write_missing(scratch / "it's; echo \u200B/robot.yaml");
+  fs::create_directory(scratch / "it's; echo \U000E0041");
+  scratch.write("it's; echo \U000E0041/robot.yaml",
+                "behaviors:\n- {behavior: B, task: 'T\U000E0041\U0001D173\u200B''\"\\'}\n");
+  const Result written = write_missing(scratch / "it's; echo \U000E0041/robot.yaml");
   EXPECT_EQ(written.status, 0) << written.err;
   EXPECT_NE(written.out.find("it'\\''s; echo"), std::string::npos) << written.out;
   const Result solved = cbc({"solve", folder});
