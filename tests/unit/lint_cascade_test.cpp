@@ -39,9 +39,11 @@ TEST(LintCascade, AttributesThatCouldNotBeRead) {
             "1:44-45 error wrong-type: 'start_on_request' must be true or false, found '3'\n");
 }
 
-TEST(LintCascade, ABehaviorWithoutTaskMayPerformAnyTask) {
+// A_WITH_WINGS may have been meant to perform A, but hardly G.
+TEST(LintCascade, OtherFaultsAreFoundBesideABehaviorWithoutTask) {
   EXPECT_EQ(findings("behaviors:\n- {behavior: A_WITH_WINGS}\ntasks: [{task: A}, {task: G}]\n"),
-            "2:14-26 error missing-key: missing key 'task' in behavior 'A_WITH_WINGS'\n");
+            "2:14-26 error missing-key: missing key 'task' in behavior 'A_WITH_WINGS'\n"
+            "3:27-28 warning task-without-behavior: no behavior performs task 'G'\n");
 }
 
 /// What is found if findings of exclusive-requirement are not reported.

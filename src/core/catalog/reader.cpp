@@ -80,8 +80,12 @@ class Reader {
         hiding_errors(reporter_) - reporter_.errors(rule::on_request_and_reactive);
     reading.is_complete = hiding == 0;
     reading.has_all_names = hiding == value_errors_ + situation_errors_;
-    reading.has_all_behaviors =
-        !lacks_a_section_ && nameless_tasks_ == 0 && reporter_.errors(rule::duplicate_key) == 0;
+    const auto without_task = static_cast<std::size_t>(std::count_if(
+        catalog_.behaviors.begin(), catalog_.behaviors.end(), [](const Behavior& behavior) {
+          return behavior.performs.empty() && !behavior.name.empty();
+        }));
+    reading.has_all_behaviors = !lacks_a_section_ && nameless_tasks_ == without_task &&
+                                reporter_.errors(rule::duplicate_key) == 0;
     reading.catalog = std::move(catalog_);
     reading.undefined_tasks = std::move(undefined_);
     return reading;

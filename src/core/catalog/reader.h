@@ -33,7 +33,7 @@ struct CatalogReading {
   /// Whether all entries and names were understood. Values may be missing, and then exclude
   /// nothing.
   bool has_all_names = false;
-  /// Whether all behaviors and their tasks were understood.
+  /// Whether all behaviors were understood, except that named ones may lack their tasks.
   bool has_all_behaviors = false;
   /// Whether its requirements have no cycle.
   bool is_acyclic = false;

@@ -219,15 +219,31 @@ void check_parameters(const Task& task, Reporter& reporter) {
   }
 }
 
-/// Reports tasks that no behavior performs. A behavior that lacks its task may have been meant to.
+/// Reports tasks that no behavior performs. Behaviors that lack a task may have been meant to
+/// perform some of them: the one whose name theirs begins with, or any other.
 void check_performed(const CatalogReading& reading, const std::vector<Use>& uses,
                      Reporter& reporter) {
   if (!reading.has_all_behaviors) return;
+  std::vector<const Task*> not_performed;
   for (std::size_t index = 0; index < uses.size(); ++index) {
-    if (uses[index].behaviors > 0) continue;
-    const Task& task = reading.catalog.tasks[index];
-    reporter.report(rule::task_without_behavior, task.range,
-                    "no behavior performs task " + quote(task.name));
+    if (uses[index].behaviors == 0) not_performed.push_back(&reading.catalog.tasks[index]);
+  }
+  std::size_t without_task = 0;
+  for (const Behavior& behavior : reading.catalog.behaviors) {
+    if (!behavior.performs.empty()) continue;
+    const auto meant = std::find_if(
+        not_performed.begin(), not_performed.end(),
+        [&behavior](const Task* task) { return behavior.name.starts_with(task->name); });
+    if (meant == not_performed.end()) {
+      ++without_task;
+    } else {
+      not_performed.erase(meant);
+    }
+  }
+  if (not_performed.size() <= without_task) return;
+  for (const Task* task : not_performed) {
+    reporter.report(rule::task_without_behavior, task->range,
+                    "no behavior performs task " + quote(task->name));
   }
 }
 
