@@ -84,8 +84,7 @@ void add_coverage_command(Program& program) {
   command.argument("CATALOG SCRIPT", options->paths, input("...", ValueKind::catalog_or_script),
                    "The catalog, unless the scripts name it; then event scripts, folders of them, "
                    "or - for standard input");
-  command.option("--format", options->format, one_of("FORMAT", formats),
-                 fmt::format("{} (default: {})", join_with_or(formats), formats.front()));
+  command.format_option(options->format, formats);
   command.option("-o,--output", options->output, output("OUT"),
                  "The file to write, or - for standard output (default)");
   command.option("--fail-under", options->fail_under, percent(),

@@ -195,8 +195,7 @@ void add_lint_command(Program& program) {
                    "for standard input");
   command.option("--script", options->scripts, input("FILE", ValueKind::script),
                  "Also check this script or property file; repeatable");
-  command.option("--format", options->format, one_of("FORMAT", formats),
-                 fmt::format("{} (default: {})", join_with_or(formats), formats.front()));
+  command.format_option(options->format, formats);
   command.flag("--summary", options->summary, "Show figures of each catalog, compiled ones too")
       .only_with_values("--format", {"text", "json"});
   command.flag("--fix", options->fix, "Fix in place what can be without changing the meaning");

@@ -172,8 +172,7 @@ void add_solve_command(Program& program) {
   command.argument("CATALOG SCRIPT", options->paths, input("...", ValueKind::catalog_or_script),
                    "The catalog, unless the scripts name it; then event scripts, folders of them, "
                    "or - for standard input");
-  command.option("--format", options->format, one_of("FORMAT", formats),
-                 fmt::format("{} (default: {})", join_with_or(formats), formats.front()));
+  command.format_option(options->format, formats);
   command.option("--html", options->html, further_output("FILE"),
                  "Also write a page with a timeline");
   command.option("-j,--jobs", options->jobs, whole_number("N", 1),

@@ -217,8 +217,7 @@ void add_sweep_command(Program& program) {
       {{"[OPTION...] CATALOG", "--merge [OPTION...] SHARD..."}, sweep_examples, sweep_footer});
   command.argument("CATALOG", options->paths, input("", ValueKind::catalog),
                    "The catalog: YAML or compiled, or - for standard input");
-  command.option("--format", options->format, one_of("FORMAT", formats),
-                 fmt::format("{} (default: {})", join_with_or(formats), formats.front()));
+  command.format_option(options->format, formats);
   command.option("-j,--jobs", options->jobs, whole_number("N", 1),
                  "Run N sequences at once (default: all processors)");
   command.flag("--stats", options->stats, "Also report times");

@@ -60,8 +60,7 @@ void add_verify_command(Program& program) {
   command.argument("CATALOG PROPERTIES", options->paths, input("...", ValueKind::catalog_or_script),
                    "The catalog, unless the property files name it; then property files, or - for "
                    "standard input");
-  command.option("--format", options->format, one_of("FORMAT", formats),
-                 fmt::format("{} (default: {})", join_with_or(formats), formats.front()));
+  command.format_option(options->format, formats);
   command.option("-o,--output", options->output, output("OUT"),
                  "The file to write, or - for standard output (default)");
   command.option("--scripts", options->scripts, folder(),

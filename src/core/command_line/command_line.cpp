@@ -218,6 +218,11 @@ Option& Command::flag(const char* names, std::string help) {
   return added;
 }
 
+Option& Command::format_option(std::string& target, const std::vector<std::string>& formats) {
+  return option("--format", target, one_of("FORMAT", formats),
+                fmt::format("{} (default: {})", join_with_or(formats), formats.front()));
+}
+
 Option& Command::flag(const char* names, bool& target, std::string help) {
   Option& added = flag(names, std::move(help));
   added.store = [&target](const std::string&) { target = true; };

@@ -184,6 +184,8 @@ class Command {
     added.store = [&target](const std::string& value) { assign(target, value); };
     return added;
   }
+  /// --format, which takes one of some names; the first one is the default.
+  Option& format_option(std::string& target, const std::vector<std::string>& formats);
   Option& flag(const char* names, bool& target, std::string help);
   Option& flag(const char* names, std::string help);
   template <typename Target>
