@@ -66,7 +66,7 @@ void run_in_turn(const std::vector<Mission>& missions, SolveReport& report, cons
   ProgressReport shown(progress);
   ReportPair both(shown, report);
   // On the same terminal, the results themselves show the progress.
-  SolveReport& of_runs = is_terminal(stdout) ? report : both;
+  SolveReport& of_runs = is_terminal(stdout) ? report : static_cast<SolveReport&>(both);
   for (const Mission& mission : missions) {
     const RunResult result = run(mission, of_runs);
     progress.clear();

@@ -308,8 +308,8 @@ class ConditionReader {
       condition.running.push_back({catalog_.task_ids[entry.task],
                                    entry.behavior ? catalog_.behavior_ids[*entry.behavior] : none});
     }
-    const auto ids = []<typename Number>(const std::vector<StateClaims::Named<Number>>& named) {
-      std::vector<Number> all;
+    const auto ids = [](const auto& named) {
+      std::vector<decltype(named.front().id)> all;
       all.reserve(named.size());
       for (const auto& entry : named) all.push_back(entry.id);
       return all;

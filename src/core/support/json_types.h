@@ -426,9 +426,10 @@ struct Map {
   void read(const auto& json, std::vector<std::pair<Name, Value>>& values,
             const auto& context) const {
     for (const auto& part : json.members()) {
-      auto& [name, value] = values.emplace_back();
-      key.read_name(part, name, context);
-      type.read(part, value, context);
+      std::pair<Name, Value> value;
+      key.read_name(part, value.first, context);
+      type.read(part, value.second, context);
+      values.push_back(std::move(value));
     }
   }
 };

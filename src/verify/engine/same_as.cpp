@@ -265,7 +265,7 @@ struct ModelPair {
   [[nodiscard]] static Key key_of(const Model& model, const Model::Choice& choice,
                                   const Translation* to_other) {
     const Move::Kind kind = choice.move.kind;
-    const auto id_of = [&]<typename Number>(Number id, std::vector<Number> Translation::*ids) {
+    const auto id_of = [&](auto id, auto ids) {
       return to_other == nullptr ? id : (to_other->*ids)[id];
     };
     switch (kind) {
