@@ -125,7 +125,7 @@ void QuestionLoader::add_properties(const InputFile& file) {
 /// Whether there is a usable catalog for this property file.
 bool QuestionLoader::find_catalog(const InputFile& file) {
   if (is_given_) return questions_.catalog != nullptr;
-  const std::optional<NamedCatalog> named = files_.expect_catalog(file);
+  const std::optional<NamedCatalog> named = FileSet::expect_catalog(file);
   if (!named) return false;
   if (!named_catalog_) {
     named_catalog_ = named->path;

@@ -397,6 +397,9 @@ bool PlainModel::holds(const StateCondition& condition, const Snapshot& state) c
          all(condition.stopped,
              [&](TaskId task) { return find_running(state, task) == nullptr; }) &&
          all(condition.active, [&](BehaviorId behavior) { return is_active(state, behavior); }) &&
+         (!condition.only_active ||
+          all(state.active,
+              [&](const auto& entry) { return contains(condition.active, entry.first); })) &&
          all(condition.faulty,
              [&](BehaviorId behavior) { return contains(state.faulty, behavior); }) &&
          all(condition.available,

@@ -225,8 +225,12 @@ class QuestionGenerator {
     } else if (const BehaviorId behavior = catalog_.values[task][entry->value_index].behavior;
                entry->request && entry->request->priority > 0 && random_.percent(40)) {
       condition.requested.push_back({task, entry->request->priority});
-    } else if (random_.percent(30)) {
+    } else if (random_.percent(15)) {
       condition.active.push_back(behavior);
+    } else if (random_.percent(15)) {
+      condition.active.clear();
+      condition.only_active = true;
+      for (const auto& [active, time] : state_.active) condition.active.push_back(active);
     } else {
       condition.running.push_back({task, random_.percent(60) ? behavior : none});
     }
@@ -245,6 +249,7 @@ class QuestionGenerator {
       condition.stopped.push_back(task);
     } else if (kind < 58) {
       condition.active.push_back(random_.pick(behaviors_));
+      if (random_.percent(30)) condition.only_active = true;
     } else if (kind < 66) {
       condition.faulty.push_back(random_.pick(behaviors_));
     } else if (kind < 74) {

@@ -92,6 +92,7 @@ class Writer {
     }
     for (const TaskId one : condition.stopped) text += " stopped " + task(one);
     for (const BehaviorId one : condition.active) text += " active " + behavior(one);
+    if (condition.only_active) text += " only";
     for (const BehaviorId one : condition.faulty) text += " faulty " + behavior(one);
     for (const BehaviorId one : condition.available) text += " available " + behavior(one);
     for (const auto& entry : condition.requested) {

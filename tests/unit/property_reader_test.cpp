@@ -110,6 +110,7 @@ std::string describe(const StateCondition& condition) {
   for (const TaskId task : condition.stopped) text += " stopped " + name_of_task(task);
   for (const BehaviorId behavior : condition.active)
     text += " active " + name_of_behavior(behavior);
+  if (condition.only_active) text += " only";
   for (const BehaviorId behavior : condition.faulty)
     text += " faulty " + name_of_behavior(behavior);
   for (const BehaviorId behavior : condition.available) {
@@ -169,6 +170,9 @@ TEST(Assumptions, AreInCatalogOrder) {
             "changing SIGNAL LIGHT; initially");
   EXPECT_EQ(assuming("start: {LAND: 3, HOVER: [2, 1]}, stop: [LAND, TALK]"),
             "start HOVER 2 1 LAND 3; stop TALK LAND; faults 0; changing SIGNAL LIGHT; initially");
+  EXPECT_EQ(assuming("start: all"),
+            "start HOVER 1 TALK 1 LAND 1 LOCALIZE 1 SEE 1 LOOK 1; "
+            "stop HOVER TALK LAND LOCALIZE SEE LOOK; faults 0; changing SIGNAL LIGHT; initially");
   EXPECT_EQ(assuming("start: [], situation: [SLAM, LIGHT, HOVER_PID]"),
             "start; stop; faults 0; changing LIGHT HOVER_PID SLAM; initially");
   EXPECT_EQ(
@@ -262,9 +266,10 @@ assume:
       "9:22-26 error undeclared-situation: there is no behavior or situation variable 'LAND': "
       "it is a task; did you mean 'LAND_PID'?\n"
       "10:10-11 error wrong-type: 'never' must be a list of situations, found a mapping\n");
-  EXPECT_EQ(findings("{assume: {start: LAND}, properties: []}"),
-            "1:18-22 error wrong-type: 'start' must be a list of tasks, or a mapping of tasks to "
-            "lists of priorities, found 'LAND'\n");
+  EXPECT_EQ(
+      findings("{assume: {start: LAND}, properties: []}"),
+      "1:18-22 error wrong-type: 'start' must be a list of tasks, a mapping of tasks to lists "
+      "of priorities, or 'all', found 'LAND'\n");
 }
 
 // Properties -------------------------------------------------------------------------------------
@@ -296,14 +301,15 @@ TEST(Properties, AreOfFourKinds) {
             "2 can_start 'it lands' LAND 3");
   EXPECT_EQ(property_of("{always: {running: [LAND]}, when: {stopped: [TALK]}, settled: yes}"),
             "2 always running LAND=any when stopped TALK settled");
-  EXPECT_EQ(property_of("{never: {active: [EYE]}, settled: false}"), "2 never active EYE");
+  EXPECT_EQ(property_of("{never: {active: [EYE]}, settled: false}"), "2 never active EYE only");
+  EXPECT_EQ(property_of("{never: {active_includes: [EYE]}}"), "2 never active EYE");
   EXPECT_EQ(property_of("{reachable: {available: [GPS]}, settled: true}"),
             "2 reachable available GPS settled");
 }
 
 TEST(Properties, HaveConditionsOfManyParts) {
   EXPECT_EQ(property_of("never: {running: {HOVER: HOVER_PID, TALK: any}, stopped: [LAND, SEE], "
-                        "active: [GPS, TALK_LOUD], faulty: [], available: [SLAM], "
+                        "active_includes: [GPS, TALK_LOUD], available: [SLAM], "
                         "requested: {TALK: 1, HOVER: 0}, situation: {LIGHT: dusk, SLAM: true}}"),
             "2 never running HOVER=HOVER_PID running TALK=any stopped LAND stopped SEE active GPS "
             "active TALK_LOUD available SLAM requested TALK 1 requested HOVER 0 LIGHT=dusk SLAM+");
@@ -330,9 +336,12 @@ TEST(Properties, HaveOneKind) {
 TEST(Properties, HaveConditionsThatSaySomething) {
   constexpr const char* message =
       "error missing-key: 'never' needs a condition: one of 'running', 'stopped', 'active', "
-      "'faulty', 'available', 'requested' and 'situation'\n";
+      "'active_includes', 'faulty', 'available', 'requested' and 'situation'\n";
   EXPECT_EQ(findings_of_property("never: {}"), std::string("3:10-11 ") + message);
-  EXPECT_EQ(findings_of_property("never: {running: []}"), std::string("3:10-11 ") + message);
+  EXPECT_EQ(findings_of_property("never: {running: ~}"), std::string("3:10-11 ") + message);
+  EXPECT_EQ(
+      findings_of_property("never: {running: []}"),
+      "3:20-21 error invalid-value: 'running' must be a list of tasks, found an empty list\n");
   EXPECT_EQ(findings_of_property("{always: {running: [LAND]}, when: [LAND]}"),
             "3:37-38 error wrong-type: 'when' must be a mapping, found a list\n");
 }
@@ -390,21 +399,40 @@ TEST(Conditions, MustNotContradictThemselves) {
 }
 
 TEST(Conditions, LeaveATaskForEachActiveBehavior) {
-  EXPECT_EQ(findings_of_property("never: {active: [HOVER_PID], running: {HOVER: HOVER_MPC}}"),
-            "3:20-29 error impossible-expectation: this can never hold: no task is left for "
-            "behavior 'HOVER_PID'\n"
-            "  3:49-58 'HOVER' is expected to run with another behavior here\n");
-  EXPECT_EQ(findings_of_property("never: {active: [HOVER_PID, HOVER_MPC]}"),
-            "3:31-40 error impossible-expectation: this can never hold: no task is left for "
+  EXPECT_EQ(
+      findings_of_property("never: {active_includes: [HOVER_PID], running: {HOVER: HOVER_MPC}}"),
+      "3:29-38 error impossible-expectation: this can never hold: no task is left for "
+      "behavior 'HOVER_PID'\n"
+      "  3:58-67 'HOVER' is expected to run with another behavior here\n");
+  EXPECT_EQ(findings_of_property("never: {active_includes: [HOVER_PID, HOVER_MPC]}"),
+            "3:40-49 error impossible-expectation: this can never hold: no task is left for "
             "behavior 'HOVER_MPC'\n"
-            "  3:20-29 'HOVER' is expected to run with another behavior here\n");
-  EXPECT_EQ(findings_of_property("never: {active: [EYE], stopped: [SEE, LOOK]}"),
-            "3:20-23 error impossible-expectation: this can never hold: no task is left for "
+            "  3:29-38 'HOVER' is expected to run with another behavior here\n");
+  EXPECT_EQ(findings_of_property("never: {active_includes: [EYE], stopped: [SEE, LOOK]}"),
+            "3:29-32 error impossible-expectation: this can never hold: no task is left for "
             "behavior 'EYE'\n"
-            "  3:36-39 'SEE' is expected to be stopped here\n"
-            "  3:41-45 'LOOK' is expected to be stopped here\n");
-  EXPECT_EQ(findings_of_property("never: {active: [EYE], stopped: [SEE], running: {LOOK: EYE}}"),
-            "");
+            "  3:45-48 'SEE' is expected to be stopped here\n"
+            "  3:50-54 'LOOK' is expected to be stopped here\n");
+  EXPECT_EQ(
+      findings_of_property("never: {active_includes: [EYE], stopped: [SEE], running: {LOOK: EYE}}"),
+      "");
+}
+
+TEST(Conditions, ListAllActiveBehaviorsOrSome) {
+  EXPECT_EQ(findings_of_property("never: {active: [HOVER_PID], running: [LAND]}"),
+            "3:42-46 error impossible-expectation: this can never hold: no behavior that performs "
+            "task 'LAND' is among those that are to be active\n"
+            "  3:11-17 no other behavior is to be active\n");
+  EXPECT_EQ(findings_of_property("never: {active_includes: [HOVER_PID], running: [LAND]}"),
+            "3:29-38 note impossible-expectation: this is ruled out already: 'LAND' excludes "
+            "'HOVER' (a.yaml:18)\n");
+  EXPECT_EQ(findings_of_property("never: {active: [GPS], active_includes: [SLAM]}"),
+            "3:26-41 error invalid-value: 'active' lists all behaviors that are active: leave out "
+            "'active_includes', or 'active'\n"
+            "  3:11-17 all active behaviors are here\n");
+  EXPECT_EQ(findings_of_property("never: {active: []}"),
+            "3:19-20 error invalid-value: 'active' must be a list of behaviors, found an empty "
+            "list\n");
 }
 
 TEST(Conditions, MayBeRuledOutByTheCatalog) {
@@ -416,28 +444,30 @@ TEST(Conditions, MayBeRuledOutByTheCatalog) {
   EXPECT_EQ(findings_of_property("reachable: {running: [HOVER, LAND]}"),
             "3:32-36 warning" + exclusion);
   EXPECT_EQ(findings_of_property("never: {running: [HOVER, LAND]}"), "3:28-32 note" + already);
-  EXPECT_EQ(findings_of_property(
-                "{always: {running: [TALK]}, when: {running: [HOVER], active: [LAND_PID]}}"),
-            "3:65-73 warning" + exclusion);
+  EXPECT_EQ(
+      findings_of_property(
+          "{always: {running: [TALK]}, when: {running: [HOVER], active_includes: [LAND_PID]}}"),
+      "3:74-82 warning" + exclusion);
   EXPECT_EQ(findings_of_property("reachable: {requested: {HOVER: 1, LAND: 0}}"),
             "3:37-41 warning" + exclusion);
-  EXPECT_EQ(findings_of_property("reachable: {active: [SLAM], situation: {LIGHT: night}}"),
-            "3:24-28 warning impossible-expectation: this can never hold: behavior 'SLAM' does not "
+  EXPECT_EQ(findings_of_property("reachable: {active_includes: [SLAM], situation: {LIGHT: night}}"),
+            "3:33-37 warning impossible-expectation: this can never hold: behavior 'SLAM' does not "
             "fit 'LIGHT: night'\n"
-            "  3:43-48 expected here\n");
-  EXPECT_EQ(findings_of_property("reachable: {active: [SLAM], situation: {LIGHT: dusk}}"), "");
+            "  3:52-57 expected here\n");
+  EXPECT_EQ(findings_of_property("reachable: {active_includes: [SLAM], situation: {LIGHT: dusk}}"),
+            "");
 }
 
 TEST(Conditions, MayBeRuledOutByRequirements) {
-  EXPECT_EQ(findings_of_property("reachable: {active: [HOVER_MPC], stopped: [LOCALIZE]}"),
-            "3:24-33 warning impossible-expectation: this can never hold: behavior 'HOVER_MPC' "
+  EXPECT_EQ(findings_of_property("reachable: {active_includes: [HOVER_MPC], stopped: [LOCALIZE]}"),
+            "3:33-42 warning impossible-expectation: this can never hold: behavior 'HOVER_MPC' "
             "requires task 'LOCALIZE' (a.yaml:10)\n"
-            "  3:46-54 expected to be stopped here\n");
+            "  3:55-63 expected to be stopped here\n");
   EXPECT_EQ(findings_of_property("reachable: {running: [HOVER], stopped: [LOCALIZE]}"), "");
   // That it is ruled out is what the property is there to prove.
-  EXPECT_EQ(findings_of_property("never: {active: [HOVER_MPC], stopped: [LOCALIZE]}"), "");
+  EXPECT_EQ(findings_of_property("never: {active_includes: [HOVER_MPC], stopped: [LOCALIZE]}"), "");
   // Other behaviors may be active.
-  EXPECT_EQ(findings_of_property("reachable: {active: [HOVER_MPC]}"), "");
+  EXPECT_EQ(findings_of_property("reachable: {active_includes: [HOVER_MPC]}"), "");
 }
 
 TEST(Conditions, MayBeRuledOutByTheAssumptions) {

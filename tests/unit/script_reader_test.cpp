@@ -406,6 +406,11 @@ TEST(ScriptReader, OnlyTheActiveBehaviorsPerformTasks) {
   EXPECT_EQ(contradictions("running: {LAND: any, HOVER: HOVER_PID}, active: [BOTH, HOVER_PID]"),
             "");
   EXPECT_EQ(contradictions("running: {LAND: any}"), "");
+  EXPECT_EQ(contradictions("running: {LAND: any}, active_includes: [BOTH]"), "");
+  EXPECT_EQ(contradictions("active: [BOTH], active_includes: [BOTH]"),
+            "1:28-43 error invalid-value: 'active' lists all behaviors that are active: leave out "
+            "'active_includes', or 'active'\n"
+            "  1:12-18 all active behaviors are here\n");
   EXPECT_EQ(contradictions("active: [], stopped: [LAND]"), "");
 }
 

@@ -585,7 +585,7 @@ class Reader {
       const std::string_view name = required_[index][place];
       if (const auto task = tasks_.find(name); task != tasks_.end()) {
         requirement.task = task->second;
-        known.push_back(std::move(requirement));
+        known.push_back(requirement);
       } else {
         undefined_.push_back(
             {std::string(name), requirement.range, index, requirement.minimum_performance, 0});

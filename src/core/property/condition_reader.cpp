@@ -44,7 +44,11 @@ class ConditionReader {
     Fields fields(node, shape::condition, reporter_);
     if (const Node* part = fields.find("running")) read_running_part(*part);
     if (const Node* part = fields.find("stopped")) read_stopped(*part);
-    if (const Node* part = fields.find("active")) active_ = read_behaviors(*part, "active");
+    for (const std::string_view key : {"active", "active_includes"}) {
+      if (const Node* part = fields.find(key)) active_ = read_behaviors(*part, key);
+    }
+    if (fields.has("active")) only_active_ = fields.range_of("active");
+    check_active_keys(fields, reporter_);
     if (const Node* part = fields.find("faulty")) faulty_ = read_behaviors(*part, "faulty");
     if (const Node* part = fields.find("available")) {
       available_ = read_behaviors(*part, "available");
@@ -95,6 +99,7 @@ class ConditionReader {
       }
       return;
     }
+    if (!read_names(node, "running", "a list of tasks")) return;
     ListedNames listed;
     for (const Node* item : node.items) {
       const auto task = names_.find_task(*item, "running", reporter_, &node);
@@ -103,8 +108,17 @@ class ConditionReader {
     }
   }
 
+  /// Whether the node is a list. An empty one says nothing, and is reported.
+  bool read_names(const Node& node, std::string_view what, std::string_view expected) {
+    if (yaml::read_list(node, what, expected, reporter_) == nullptr) return false;
+    if (!node.items.empty()) return true;
+    reporter_.report(rule::invalid_value, node.range,
+                     concat(quote(what), " must be ", expected, ", found an empty list"));
+    return false;
+  }
+
   void read_stopped(const Node& node) {
-    if (yaml::read_list(node, "stopped", "a list of tasks", reporter_) == nullptr) return;
+    if (!read_names(node, "stopped", "a list of tasks")) return;
     ListedNames listed;
     for (const Node* item : node.items) {
       const auto task = names_.find_task(*item, "stopped", reporter_, &node);
@@ -116,7 +130,7 @@ class ConditionReader {
 
   std::vector<NamedBehavior> read_behaviors(const Node& node, std::string_view what) {
     std::vector<NamedBehavior> behaviors;
-    if (yaml::read_list(node, what, "a list of behaviors", reporter_) == nullptr) return behaviors;
+    if (!read_names(node, what, "a list of behaviors")) return behaviors;
     ListedNames listed;
     for (const Node* item : node.items) {
       const auto behavior = names_.find_behavior(*item, what, reporter_, &node);
@@ -163,6 +177,7 @@ class ConditionReader {
     }
     claims.stopped = stopped_;
     claims.active = active_;
+    claims.only_active = only_active_;
     return claims;
   }
 
@@ -316,6 +331,7 @@ class ConditionReader {
     };
     condition.stopped = ids(stopped_);
     condition.active = ids(active_);
+    condition.only_active = only_active_.has_value();
     condition.faulty = ids(faulty_);
     condition.available = ids(available_);
     for (const Requested& requested : requested_) {
@@ -332,6 +348,7 @@ class ConditionReader {
   std::vector<RunningEntry> running_;
   std::vector<NamedTask> stopped_;
   std::vector<NamedBehavior> active_;
+  std::optional<Range> only_active_;
   std::vector<NamedBehavior> faulty_;
   std::vector<NamedBehavior> available_;
   std::vector<Requested> requested_;

@@ -71,7 +71,8 @@ struct StateCondition {
   };
   std::vector<Running> running;
   std::vector<TaskId> stopped;
-  std::vector<BehaviorId> active;  ///< others may be active, too
+  std::vector<BehaviorId> active;
+  bool only_active = false;  ///< no other behavior of the groups explored is active
   std::vector<BehaviorId> faulty;
   std::vector<BehaviorId> available;
   std::vector<Requested> requested;

@@ -22,8 +22,8 @@ constexpr Key assumption_keys[] = {{"start"},  {"stop"},      {"successes"}, {"f
                                    {"faults"}, {"situation"}, {"never"}};
 constexpr Key property_keys[] = {{"name"},  {"can_start"}, {"priority"}, {"always"},
                                  {"never"}, {"reachable"}, {"when"},     {"settled"}};
-constexpr Key condition_keys[] = {{"running"},   {"stopped"},   {"active"},   {"faulty"},
-                                  {"available"}, {"requested"}, {"situation"}};
+constexpr Key condition_keys[] = {{"running"}, {"stopped"},   {"active"},    {"active_includes"},
+                                  {"faulty"},  {"available"}, {"requested"}, {"situation"}};
 
 constexpr const Shape* in_file[] = {&assumptions, &property};
 constexpr const Shape* in_property[] = {&condition};
@@ -102,10 +102,12 @@ class AssumptionReader {
       }
     } else if (node.kind == Kind::sequence) {
       for (const TaskId task : read_tasks(node, "start")) out_.start.push_back({task, {1}});
+    } else if (node.text == "all") {
+      for (const TaskId task : catalog_.task_ids) out_.start.push_back({task, {1}});
     } else {
-      yaml::report_wrong_type(node, "start",
-                              "a list of tasks, or a mapping of tasks to lists of priorities",
-                              reporter_);
+      yaml::report_wrong_type(
+          node, "start", "a list of tasks, a mapping of tasks to lists of priorities, or 'all'",
+          reporter_);
     }
     std::sort(out_.start.begin(), out_.start.end(),
               [this](const auto& a, const auto& b) { return place_of(a.task) < place_of(b.task); });

@@ -25,7 +25,7 @@ std::string value_name(const CompiledCatalog& catalog, TaskId task, std::uint32_
 
 /// The same with its suitability.
 std::string value_text(const CompiledCatalog& catalog, TaskId task, std::uint32_t place) {
-  const std::string name = value_name(catalog, task, place);
+  std::string name = value_name(catalog, task, place);
   if (place == none) return name;
   return fmt::format("{} ({})", name, format_percent(catalog.values[task][place].suitability));
 }

@@ -303,6 +303,7 @@ void write_list(const std::vector<std::string>& lines, std::size_t total, std::s
 void write_failures(const std::string& file, const std::vector<FailedExpectation>& failures,
                     Text& text) {
   std::vector<std::string> lines;
+  lines.reserve(failures.size());
   for (const FailedExpectation& failed : failures) {
     lines.push_back(fmt::format("{}: {}", format_place(file, failed.range.begin), failed.message));
   }

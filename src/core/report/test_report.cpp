@@ -151,6 +151,7 @@ std::string unreadable_to_text(const TestFormat& format, std::string_view comman
     by_file["<input>"] = case_of("the input cannot be read; standard error has the reason");
   }
   std::vector<TestSuite> suites;
+  suites.reserve(by_file.size());
   for (auto& [file, test] : by_file) suites.push_back({file, {}, {std::move(test)}});
   return tests_to_text(format, command, suites);
 }

@@ -84,8 +84,16 @@ std::string describe_condition(const CompiledCatalog& catalog, const StateCondit
   for (const TaskId id : condition.stopped) {
     parts.push_back(fmt::format("{} does not run", task(id)));
   }
-  for (const BehaviorId id : condition.active) {
-    parts.push_back(fmt::format("behavior {} is active", behavior(id)));
+  if (condition.only_active) {
+    parts.push_back(fmt::format(
+        "only {} active",
+        condition.active.size() == 1
+            ? fmt::format("behavior {} is", behavior(condition.active.front()))
+            : fmt::format("the behaviors {} are", join(condition.active, ", ", behavior))));
+  } else {
+    for (const BehaviorId id : condition.active) {
+      parts.push_back(fmt::format("behavior {} is active", behavior(id)));
+    }
   }
   for (const auto& requested : condition.requested) {
     parts.push_back(fmt::format("{} is requested with priority {} or more", task(requested.task),
@@ -140,8 +148,27 @@ std::string describe_priorities(const Assumptions& assumptions) {
     priorities.insert(start.priorities.begin(), start.priorities.end());
   }
   std::vector<std::string> words;
+  words.reserve(priorities.size());
   for (const std::int32_t priority : priorities) words.push_back(std::to_string(priority));
   return (words.size() == 1 ? "priority " : "priorities ") + list_with_and(words);
+}
+
+/// Tasks that a script may request, though the assumptions do not: "; LOCALIZE is not requested".
+std::string describe_unrequested(const CompiledCatalog& catalog, const Assumptions& assumptions) {
+  constexpr std::size_t most_names = 5;
+  std::set<TaskId> requested;
+  for (const Assumptions::Start& start : assumptions.start) requested.insert(start.task);
+  std::vector<std::string> names;
+  for (const TaskId task : catalog.task_ids) {
+    if (!requested.contains(task)) names.push_back(printable(catalog.name_of_task(task)));
+  }
+  if (names.empty()) return {};
+  const std::size_t count = names.size();
+  if (count > most_names) {
+    names.resize(most_names - 1);
+    names.push_back(fmt::format("{} more", count - names.size()));
+  }
+  return fmt::format("; {} {} not", list_with_and(names), count == 1 ? "is" : "are");
 }
 
 std::string describe_requests(const CompiledCatalog& catalog, const Assumptions& assumptions) {
@@ -153,8 +180,8 @@ std::string describe_requests(const CompiledCatalog& catalog, const Assumptions&
   const bool stops_the_same =
       std::equal(start.begin(), start.end(), assumptions.stop.begin(), assumptions.stop.end(),
                  [](const Assumptions::Start& one, TaskId task) { return one.task == task; });
-  if (stops_the_same) return text + " and stopped";
-  return text + fmt::format(", {} stopped", assumptions.stop.size());
+  text += stops_the_same ? " and stopped" : fmt::format(", {} stopped", assumptions.stop.size());
+  return text + describe_unrequested(catalog, assumptions);
 }
 
 }  // namespace
@@ -225,7 +252,7 @@ std::string describe_event(const CompiledCatalog& catalog, const EventRecord& re
 
 std::string event_and_outcome(const CompiledCatalog& catalog, const EventRecord& record,
                               const Step* step) {
-  const std::string text = describe_event(catalog, record, step);
+  std::string text = describe_event(catalog, record, step);
   if (!form_of(record.verb).is_decided) return text;
   return fmt::format("{}: {}", text, name_of(record.outcome));
 }
@@ -287,6 +314,9 @@ std::string describe_expectation(const CompiledCatalog& catalog, const Expectati
     parts.push_back(expectation.active->empty()
                         ? "no behavior is active"
                         : "active exactly: " + join(*expectation.active, ", ", name));
+  }
+  for (const std::uint32_t index : expectation.active_includes) {
+    parts.push_back(fmt::format("{} is active", printable(catalog.behavior_names[index])));
   }
   return join(parts, ", ");
 }

@@ -67,9 +67,13 @@ class ExpectationReader {
     }
     if (const Node* stopped = fields.find("stopped")) read_stopped(*stopped, running);
     if (const Node* active = fields.find("active")) {
-      read_active(*active);
+      out_.active = read_active(*active, "active");
       claims_.only_active = fields.range_of("active");
     }
+    if (const Node* active = fields.find("active_includes")) {
+      out_.active_includes = read_active(*active, "active_includes");
+    }
+    check_active_keys(fields, reporter_);
     fields.report_unknown(yaml::UnknownKeys::refused);
     if (reporter_.errors() == errors) check_claims();
     return std::move(out_);
@@ -90,15 +94,16 @@ class ExpectationReader {
     }
   }
 
-  void read_active(const Node& node) {
-    if (yaml::read_list(node, "active", "a list of behaviors", reporter_) == nullptr) return;
-    auto& behaviors = out_.active.emplace();
+  std::vector<std::uint32_t> read_active(const Node& node, std::string_view key) {
+    std::vector<std::uint32_t> behaviors;
+    if (yaml::read_list(node, key, "a list of behaviors", reporter_) == nullptr) return behaviors;
     for (const Node* item : node.items) {
-      const auto behavior = names_.find_behavior(*item, "active", reporter_, &node);
+      const auto behavior = names_.find_behavior(*item, key, reporter_, &node);
       if (!behavior) continue;
       behaviors.push_back(*behavior);
       claims_.active.push_back({names_.catalog().behavior_ids[*behavior], item->range});
     }
+    return behaviors;
   }
 
   void check_claims() {
@@ -154,6 +159,14 @@ std::vector<RunningEntry> read_running(const Node& node, NameIndex& names,
   return running;
 }
 
+void check_active_keys(const yaml::Fields& fields, Reporter& reporter) {
+  if (!fields.has("active") || !fields.has("active_includes")) return;
+  reporter.report(rule::invalid_value, fields.range_of("active_includes"),
+                  "'active' lists all behaviors that are active: leave out 'active_includes', or "
+                  "'active'",
+                  {reporter.note(fields.range_of("active"), "all active behaviors are here")});
+}
+
 void check_stopped(std::uint32_t task, const Range& range, const std::vector<RunningEntry>& running,
                    const CompiledCatalog& catalog, const Standing& standing, Reporter& reporter) {
   const auto runs = std::find_if(running.begin(), running.end(),
@@ -193,6 +206,9 @@ class ExpectedGroups {
       if (state_.is_running(task)) note_mismatch(task);
     }
     if (expectation.active) add_active(*expectation.active);
+    for (const std::uint32_t index : expectation.active_includes) {
+      add_active_behavior(catalog_.behavior_ids[index]);
+    }
   }
 
   std::vector<ExpectedValues> take() {

@@ -85,6 +85,9 @@ struct RunningEntry {
 [[nodiscard]] std::vector<RunningEntry> read_running(const yaml::Node& node, NameIndex& names,
                                                      const Standing& of_misfit, Reporter& reporter);
 
+/// Reports a list of all active behaviors beside a list of some of them.
+void check_active_keys(const yaml::Fields& fields, Reporter& reporter);
+
 /// Reports a task that is expected to be stopped, and is one of those that are expected to run.
 void check_stopped(std::uint32_t task, const Range& range, const std::vector<RunningEntry>& running,
                    const CompiledCatalog& catalog, const Standing& standing, Reporter& reporter);

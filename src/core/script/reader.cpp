@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,7 +36,8 @@ constexpr auto event_keys = [] {
   for (const std::string_view key : others) keys[count++].name = key;
   return keys;
 }();
-constexpr Key expectation_keys[] = {{"outcome"}, {"running"}, {"stopped"}, {"active"}};
+constexpr Key expectation_keys[] = {
+    {"outcome"}, {"running"}, {"stopped"}, {"active"}, {"active_includes"}};
 
 constexpr Key finished_task_keys[] = {{"task"}};
 
@@ -379,6 +381,20 @@ void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter
   fields.report_unknown(yaml::UnknownKeys::refused);
 }
 
+/// Notes requests of tasks that are not meant to be started on request, each task once.
+void check_requests(const Script& script, const CompiledCatalog& catalog, Reporter& reporter) {
+  std::set<std::uint32_t> noted;
+  for (const Step& step : script.steps) {
+    if (step.expect || step.verb != Verb::start) continue;
+    if (catalog.tasks[catalog.task_ids[step.subject]].start_on_request != 0) continue;
+    if (!noted.insert(step.subject).second) continue;
+    reporter.report(rule::supporting_request, step.range,
+                    concat("task ", quote(catalog.task_names[step.subject]),
+                           " has 'start_on_request: FALSE', and is requested here; 'cbc verify' "
+                           "requests it only if its assumptions say so"));
+  }
+}
+
 }  // namespace
 
 const Node* catalog_of_script(const yaml::Document& document) {
@@ -427,6 +443,7 @@ std::optional<Script> read_script(const yaml::Document& document, const Compiled
       break;
   }
   if (reporter.errors() > 0) return std::nullopt;
+  check_requests(script, catalog, reporter);
   return script;
 }
 

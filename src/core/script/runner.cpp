@@ -107,6 +107,11 @@ std::string find_mismatch(const Expectation& expectation, const CompiledCatalog&
                                      how_it_runs(catalog, state, task)));
   }
   if (expectation.active) check_active(*expectation.active, catalog, state, mismatches);
+  for (const std::uint32_t index : expectation.active_includes) {
+    if (state.is_active(catalog.behavior_ids[index])) continue;
+    mismatches.push_back(fmt::format("expected behavior {} to be active, but it is not",
+                                     quote(catalog.behavior_names[index])));
+  }
   return join(mismatches, "; ");
 }
 

@@ -41,6 +41,7 @@ struct Expectation {
   std::vector<Running> running;
   std::vector<std::uint32_t> stopped;                ///< tasks that do not run
   std::optional<std::vector<std::uint32_t>> active;  ///< exactly these behaviors are active
+  std::vector<std::uint32_t> active_includes;        ///< these are active, others or not
 };
 
 /// What an event changes of the situation.

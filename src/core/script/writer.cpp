@@ -70,6 +70,9 @@ std::string expectation_entry(const CompiledCatalog& catalog, const Expectation&
   if (expectation.active) {
     parts.push_back("active: [" + join(*expectation.active, ", ", behavior) + "]");
   }
+  if (!expectation.active_includes.empty()) {
+    parts.push_back("active_includes: [" + join(expectation.active_includes, ", ", behavior) + "]");
+  }
   return "expect: {" + join(parts, ", ") + "}";
 }
 

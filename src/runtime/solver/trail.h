@@ -98,6 +98,9 @@ class LazyReasons {
 /// only when asked for; others are stored.
 class Trail {
  public:
+  Trail& operator=(Trail&&) = delete;
+  virtual ~Trail() = default;
+
   /// Why a literal holds.
   struct Cause {
     enum class Kind : std::uint8_t {
@@ -199,8 +202,6 @@ class Trail {
  protected:
   Trail(const CompiledCatalog& catalog, Domains& domains);
   Trail(Trail&&) = default;
-  Trail& operator=(Trail&&) = delete;
-  ~Trail() = default;
 
   /// Begins anew with the group of the domains: nothing holds or was learned.
   void clear();

@@ -55,6 +55,7 @@ class StateTest {
              Part part) { return has_bit(state.active().data(), part.subject); },
           model.find_behavior(behavior));
     }
+    if (condition.only_active) add_others(model, condition.active);
     for (const VariableValue& value : condition.situation.variables) {
       add([](const Stepper& state,
              Part part) { return state.value_of(part.subject) == part.wanted; },
@@ -97,6 +98,16 @@ class StateTest {
 
   void add(bool (*test)(const Stepper&, Part), std::uint32_t subject, std::uint32_t wanted = 0) {
     tests_.push_back({test, {subject, wanted}});
+  }
+  /// The behaviors that are not listed are not active.
+  void add_others(const Model& model, const std::vector<BehaviorId>& listed) {
+    for (std::uint32_t behavior = 0; behavior < model.behaviors().size(); ++behavior) {
+      const BehaviorId id = model.behaviors()[behavior].id;
+      if (std::find(listed.begin(), listed.end(), id) != listed.end()) continue;
+      add([](const Stepper& state,
+             Part part) { return !has_bit(state.active().data(), part.subject); },
+          behavior);
+    }
   }
   /// None, which no cell has, if the behavior does not perform the task.
   [[nodiscard]] static std::uint32_t cell_of(const Model& model, std::uint32_t task,

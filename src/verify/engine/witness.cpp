@@ -142,9 +142,14 @@ std::vector<const Model::Choice*> find_choices(const Model& model, const std::ve
   return choices;
 }
 
+void add_all_tasks(const Model& model, std::set<TaskId>& tasks) {
+  for (const Model::Task& task : model.tasks()) tasks.insert(task.id);
+}
+
 /// The tasks that a condition is about.
-void add_tasks(const CompiledCatalog& catalog, const StateCondition& condition,
-               std::set<TaskId>& tasks) {
+void add_tasks(const Model& model, const StateCondition& condition, std::set<TaskId>& tasks) {
+  const CompiledCatalog& catalog = model.catalog();
+  if (condition.only_active) add_all_tasks(model, tasks);
   for (const auto& running : condition.running) tasks.insert(running.task);
   for (const TaskId task : condition.stopped) tasks.insert(task);
   for (const auto& requested : condition.requested) tasks.insert(requested.task);
@@ -159,13 +164,13 @@ Expectation expectation_of(const Model& model, const Stepper& stepper, const Pro
   Expectation expectation;
   std::set<TaskId> about;
   if (property == nullptr) {
-    for (const Model::Task& task : model.tasks()) about.insert(task.id);
+    add_all_tasks(model, about);
   } else if (property->kind == Property::Kind::can_start) {
     expectation.outcome = Outcome::rejected;
     about.insert(property->task);
   } else {
-    add_tasks(catalog, property->condition, about);
-    if (property->when) add_tasks(catalog, *property->when, about);
+    add_tasks(model, property->condition, about);
+    if (property->when) add_tasks(model, *property->when, about);
   }
   for (const std::uint32_t task : model.tasks_in_order()) {
     const TaskId id = model.tasks()[task].id;

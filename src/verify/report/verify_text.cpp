@@ -187,6 +187,7 @@ class GroupText {
     }
     std::sort(behaviors.begin(), behaviors.end());
     std::vector<std::string> inactive;
+    inactive.reserve(behaviors.size());
     for (const std::uint32_t index : behaviors) {
       inactive.push_back(printable(catalog_.behavior_names[index]));
     }
@@ -283,6 +284,7 @@ class GroupText {
   }
   [[nodiscard]] std::vector<std::string> names_of(const std::vector<std::uint32_t>& tasks) const {
     std::vector<std::string> names;
+    names.reserve(tasks.size());
     for (const std::uint32_t task : tasks) names.push_back(name_of_task(task));
     return names;
   }
