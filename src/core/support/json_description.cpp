@@ -33,13 +33,13 @@ std::string layout(const Json& value, std::size_t indent, std::size_t begin) {
 
 }  // namespace
 
-void Definitions::add_text(std::string_view name, const std::string& text) {
+void Definitions::add_text(std::string_view name, const std::string& definition) {
   for (const auto& [known, other] : texts_) {
     if (known != name) continue;
-    if (other != text) throw std::logic_error("two definitions of " + std::string(name));
+    if (other != definition) throw std::logic_error("two definitions of " + std::string(name));
     return;
   }
-  texts_.emplace_back(name, text);
+  texts_.emplace_back(name, definition);
 }
 
 std::string make_schema(std::string_view name, std::string_view title, std::string_view whole,

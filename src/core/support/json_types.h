@@ -45,7 +45,7 @@ class Definitions {
 
  private:
   /// Throws if there is another definition of this name.
-  void add_text(std::string_view name, const std::string& text);
+  void add_text(std::string_view name, const std::string& definition);
 
   std::vector<std::pair<std::string, std::string>> texts_;
 };
