@@ -137,7 +137,8 @@ void print_report(const LintCommand& command, const Linter& linter, bool is_comp
     if (linter.has_found()) complain("other findings need a person to fix them: see 'cbc lint'");
     return;
   }
-  const LintRun run{std::filesystem::current_path().string(), is_complete, style_for(stdout)};
+  const LintRun run{std::filesystem::current_path().string(), is_complete, style_for(stdout),
+                    linter.not_understood()};
   if (command.summary && command.format == "text") {
     for (const LintedFile& file : linter.files()) {
       if (file.kind == LintedFile::Kind::catalog || file.kind == LintedFile::Kind::unknown) {
@@ -170,7 +171,8 @@ int lint(const LintCommand& command) {
 
   Linter linter(command, std::move(settings));
   const bool has_all = lint_all(command, linter);
-  if (!linter.files().empty()) print_report(command, linter, has_all && !linter.has_failed());
+  if (!linter.files().empty() || !linter.not_understood().empty())
+    print_report(command, linter, has_all && !linter.has_failed());
   if (command.fix && !command.diff && !linter.has_mended() && has_faults(linter.files())) {
     complain("none of these findings can be fixed in place");
   }

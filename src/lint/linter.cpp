@@ -5,9 +5,11 @@
 
 #include <fmt/core.h>
 
+#include "core/catalog/older_format.h"
 #include "core/check/controls.h"
 #include "core/command_line/command_line.h"
 #include "core/diagnostic/diagnostic.h"
+#include "core/diagnostic/rules.h"
 #include "core/files/output.h"
 #include "core/property/property_reader.h"
 #include "core/script/reader.h"
@@ -35,6 +37,19 @@ std::string advice_on(FileSet::Fault fault, const std::string& path) {
   return {};
 }
 
+/// Returns whether a property file can be used.
+bool lint_properties(const yaml::Document& document, const CompiledCatalog& catalog,
+                     Diagnostics& diagnostics) {
+  const std::optional<PropertyFile> file = read_properties(document, catalog, diagnostics);
+  // Of a key without a value the reader has said so.
+  if (file && lacks_properties(document, *file) && document.root().find("properties") != nullptr) {
+    Reporter(document.file(), diagnostics)
+        .report_as({Severity::warning, true}, rule::missing_key, document.root().range,
+                   "the list of properties is empty, so there is nothing to prove");
+  }
+  return file.has_value();
+}
+
 }  // namespace
 
 void Linter::lint_catalog(const std::string& path) {
@@ -57,7 +72,11 @@ void Linter::lint_catalog(const std::string& path) {
 void Linter::lint_in_folder(const std::string& path, const std::string& folder) {
   File file = files_.open(path);
   has_failed_ |= file == nullptr;
-  if (file == nullptr || !file->what.is_sure) return;
+  if (file == nullptr) return;
+  if (!file->what.is_sure) {
+    if (file->document == nullptr) not_understood_.push_back(file->name);
+    return;
+  }
   const FileKind kind = file->what.kind;
   if (kind == FileKind::catalog) {
     lint_catalog(std::move(file));
@@ -150,11 +169,28 @@ CheckedCatalog Linter::check(const InputFile& file, const SeveritySettings& sett
   return checked;
 }
 
+/// Replaces a catalog of an older format by what it is in the present one. Returns whether it has
+/// been replaced.
+bool Linter::convert(File& file, CheckedCatalog& catalog, const SeveritySettings& settings) {
+  if (file->document == nullptr || !find_older_format(file->document->root())) return false;
+  Conversion conversion = convert_older_format(*file->document, *file->text);
+  if (conversion.obstacle) return false;
+  for (const Leftover& leftover : conversion.leftovers) {
+    complain("{}: {}", format_place(printable(file->name), leftover.range.begin),
+             printable(leftover.message));
+  }
+  file = files_.parse(file->path, std::move(conversion.text));
+  catalog = check(*file, settings);
+  return true;
+}
+
 /// Applies all fixes. If the result cannot be written, nothing changes.
 void Linter::fix(File& file, CheckedCatalog& catalog, const SeveritySettings& settings) {
   File fixed_file = file;
   CheckedCatalog fixed = catalog;
-  std::size_t mended = 0;
+  const bool is_converted = convert(fixed_file, fixed, settings);
+  const CheckedCatalog before = fixed;
+  std::size_t mended = is_converted ? 1 : 0;
   // A fix may uncover more findings. Each round removes redundancy from the text, so the loop ends.
   for (;;) {
     FixedText text = apply_fixes(*fixed_file->text, fixed.findings);
@@ -164,8 +200,8 @@ void Linter::fix(File& file, CheckedCatalog& catalog, const SeveritySettings& se
     fixed = check(*fixed_file, settings);
   }
   if (mended == 0) return;
-  if (!same_meaning(catalog.reading.catalog, fixed.reading.catalog) ||
-      fixed.errors > catalog.errors) {
+  if (!same_meaning(before.reading.catalog, fixed.reading.catalog) ||
+      fixed.errors > before.errors) {
     complain(
         "internal error: fixing {} would change its meaning, so nothing is "
         "written; please report it with the file",
@@ -222,7 +258,7 @@ void Linter::lint_script(const InputFile& file, const std::string& catalog) {
     const CompiledCatalog& compiled = *checked->compiled;
     const bool is_usable =
         is_of_properties
-            ? read_properties(*file.document, compiled, diagnostics).has_value()
+            ? lint_properties(*file.document, compiled, diagnostics)
             : read_script(*file.document, compiled, Severity::error, diagnostics).has_value();
     // Findings that may be allowed do not make a file incomplete.
     commented.is_complete =
@@ -233,7 +269,9 @@ void Linter::lint_script(const InputFile& file, const std::string& catalog) {
     return;
   }
   LintedFile linted;
-  linted.kind = is_of_properties ? LintedFile::Kind::properties : LintedFile::Kind::script;
+  linted.kind = file.document == nullptr ? LintedFile::Kind::unknown
+                : is_of_properties       ? LintedFile::Kind::properties
+                                         : LintedFile::Kind::script;
   linted.file = file.name;
   linted.text = *file.text;
   linted.findings = control_findings(diagnostics.release(), commented, *settings);

@@ -57,6 +57,8 @@ class Linter {
   void check_settings();
 
   [[nodiscard]] const std::vector<LintedFile>& files() const { return linted_; }
+  /// The files of folders that are not valid YAML, and may or may not be meant for cbc.
+  [[nodiscard]] const std::vector<std::string>& not_understood() const { return not_understood_; }
   /// Whether a file was linted that was found in a folder of the command line.
   [[nodiscard]] bool has_checked(const std::string& folder) const {
     return checked_folders_.contains(folder);
@@ -80,6 +82,7 @@ class Linter {
     std::string folder;  ///< of the command line
   };
   [[nodiscard]] CheckedCatalog check(const InputFile& file, const SeveritySettings& settings) const;
+  [[nodiscard]] bool convert(File& file, CheckedCatalog& catalog, const SeveritySettings& settings);
   void fix(File& file, CheckedCatalog& catalog, const SeveritySettings& settings);
   [[nodiscard]] std::string catalog_beside(const Found& found) const;
   [[nodiscard]] static bool write_fixed(const InputFile& before, const std::string& after);
@@ -96,6 +99,7 @@ class Linter {
   const LintCommand& command_;
   FileSet files_;
   std::vector<LintedFile> linted_;
+  std::vector<std::string> not_understood_;
   /// By settings file, what the names of tasks in it are checked against.
   struct NamedTasks {
     SeveritySettings settings;

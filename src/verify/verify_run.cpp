@@ -18,6 +18,7 @@
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
 #include "core/property/properties.h"
+#include "core/property/property_reader.h"
 #include "core/support/system.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
@@ -115,6 +116,9 @@ void QuestionLoader::take_catalog(const std::shared_ptr<const CheckedCatalog>& c
 void QuestionLoader::add_properties(const InputFile& file) {
   std::optional<PropertyFile> properties;
   if (find_catalog(file)) properties = files_.read_properties(file, *questions_.catalog);
+  if (properties && lacks_properties(*file.document, *properties)) {
+    return refuse(file, "has no property, so there is nothing to prove");
+  }
   if (properties) {
     questions_.files.push_back(std::make_unique<const PropertyFile>(std::move(*properties)));
   } else {

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "core/catalog/catalog.h"
+#include "core/catalog/foreign_file.h"
+#include "core/catalog/older_format.h"
 #include "core/catalog/shape.h"
 #include "core/catalog/situation.h"
 #include "core/catalog/task_attributes.h"
@@ -55,22 +57,33 @@ std::size_t hiding_errors(const Reporter& reporter) {
 /// of tasks in requirements and exclusivity lists are resolved last, when all tasks are known.
 class Reader {
  public:
-  explicit Reader(Reporter& reporter)
-      : reporter_(reporter), attributes_(task_defaults_, reporter), situation_(reporter) {}
+  Reader(const yaml::Document& document, Reporter& reporter)
+      : document_(document),
+        reporter_(reporter),
+        attributes_(task_defaults_, reporter),
+        situation_(reporter) {}
 
-  CatalogReading read(const Node& root) && {
+  CatalogReading read() && {
+    const Node& root = document_.root();
     if (root.kind == Kind::null) {
       reporter_.report(rule::missing_key, root.range,
                        "missing key 'behaviors': the catalog is empty");
+    } else if (const auto format = find_older_format(root)) {
+      report_older_format(*format);
+      lacks_a_section_ = true;
+    } else if (resembles_catalog(root)) {
+      read_sections(root);
+    } else if (const auto inner = find_inner_section(root)) {
+      report_inner_section(*inner);
+      lacks_a_section_ = true;
+    } else if (const std::string_view found = find_foreign_file(root); !found.empty()) {
+      reporter_.report(rule::wrong_type, root.range,
+                       describe_foreign_file("behavior catalog", found));
+      lacks_a_section_ = true;
     } else if (root.kind != Kind::mapping) {
       reporter_.report(
           rule::wrong_type, root.range,
           "a catalog must be a mapping with the key 'behaviors', found " + yaml::describe(root));
-    } else if (const Node* key = find_older_format(root)) {
-      reporter_.report(rule::older_format, key->range,
-                       "this is a catalog of an older format, with capabilities and without tasks; "
-                       "it is not supported");
-      lacks_a_section_ = true;
     } else {
       read_sections(root);
     }
@@ -107,6 +120,32 @@ class Reader {
     const std::size_t errors = reporter_.errors();
     read();
     situation_errors_ += reporter_.errors() - errors;
+  }
+
+  void report_older_format(const OlderFormat& format) {
+    const Conversion conversion = convert_older_format(document_, {});
+    std::string message = "this is a catalog of an older format, " + std::string(format.features) +
+                          "; it is not supported";
+    std::vector<Note> notes;
+    if (conversion.obstacle) {
+      message += ", and 'cbc lint --fix' cannot convert it";
+      notes.push_back(reporter_.note(conversion.obstacle->range, conversion.obstacle->message));
+    } else if (conversion.leftovers.empty()) {
+      message += "; 'cbc lint --fix' converts it";
+    } else {
+      message += "; 'cbc lint --fix' converts it, but for what the notes say";
+    }
+    for (const Leftover& leftover : conversion.leftovers) {
+      notes.push_back(reporter_.note(leftover.range, leftover.message));
+    }
+    reporter_.report(rule::older_format, format.key->range, std::move(message), std::move(notes));
+  }
+
+  void report_inner_section(const InnerSection& inner) {
+    std::string message =
+        quote(inner.key->text) + " must be a key of the file itself, found it in ";
+    message += inner.outer == nullptr ? "a list" : quote(inner.outer->text);
+    reporter_.report(rule::missing_key, inner.key->range, std::move(message));
   }
 
   void read_sections(const Node& root) {
@@ -693,6 +732,7 @@ class Reader {
     return std::nullopt;
   }
 
+  const yaml::Document& document_;
   Reporter& reporter_;
   GivenAttributes task_defaults_;
   std::optional<std::string_view> default_package_;
@@ -721,7 +761,7 @@ class Reader {
 
 CatalogReading understand_catalog(const yaml::Document& document, Diagnostics& diagnostics) {
   Reporter reporter(document.file(), diagnostics);
-  CatalogReading reading = Reader(reporter).read(document.root());
+  CatalogReading reading = Reader(document, reporter).read();
   reading.catalog.file = document.file();
   check_requirement_cycles(reading.catalog, reporter);
   reading.is_acyclic = reporter.errors(rule::requirement_cycle) == 0;

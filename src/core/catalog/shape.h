@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/yaml/document.h"
 #include "core/yaml/values.h"
 
@@ -20,18 +22,27 @@ extern const yaml::Shape variable;
 
 }  // namespace cbc::shape
 
-/// How catalogs are told from other YAML files, and those of an older format that is not supported.
+/// How catalogs are told from other YAML files.
 namespace cbc {
 
 /// Whether a file is a catalog: it has the key `behaviors`, or two other sections of a catalog with
-/// values of the right kinds, or is one of the older format.
+/// values of the right kinds, or one with entries that no other file has, or it has an older
+/// format.
 [[nodiscard]] bool is_catalog(const yaml::Node& root);
 
 /// Whether a file would be a catalog but for misspelt keys.
 [[nodiscard]] bool resembles_catalog(const yaml::Node& root);
 
-/// The key that shows that a catalog has the format with capabilities, which is older than tasks.
-/// Null if it does not.
-[[nodiscard]] const yaml::Node* find_older_format(const yaml::Node& root);
+/// Whether a node is a list of behaviors with their tasks, whatever the key is under which it
+/// stands.
+[[nodiscard]] bool is_list_of_behaviors(const yaml::Node& node);
+
+/// A section of a catalog that does not stand at the top of a file.
+struct InnerSection {
+  const yaml::Node* key = nullptr;
+  const yaml::Node* outer = nullptr;  ///< the key under which it stands; null: a list has it
+};
+/// The first one whose entries no other file has. Empty if there is none.
+[[nodiscard]] std::optional<InnerSection> find_inner_section(const yaml::Node& root);
 
 }  // namespace cbc

@@ -410,4 +410,8 @@ std::optional<PropertyFile> read_properties(const yaml::Document& document,
   return file;
 }
 
+bool lacks_properties(const yaml::Document& document, const PropertyFile& file) {
+  return file.properties.empty() && yaml::stands_in(document.root(), "properties");
+}
+
 }  // namespace cbc

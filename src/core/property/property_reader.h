@@ -32,6 +32,10 @@ namespace cbc {
                                                           const CompiledCatalog& catalog,
                                                           Diagnostics& diagnostics);
 
+/// Whether a file has the key `properties` and no property. Without the key it only says what is
+/// assumed.
+[[nodiscard]] bool lacks_properties(const yaml::Document& document, const PropertyFile& file);
+
 // Parts of the reader of property files: conditions, and what assumptions share with them.
 
 /// Finds names that are listed twice.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cbc/event.h"
+#include "core/catalog/foreign_file.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/diagnostic/rules.h"
 #include "core/script/expectation.h"
@@ -419,6 +420,12 @@ std::optional<Script> read_script(const yaml::Document& document, const Compiled
   Script script;
   script.file = document.file();
   const Node& root = document.root();
+  const std::string_view foreign =
+      root.find("events") == nullptr ? find_foreign_file(root) : std::string_view();
+  if (!foreign.empty()) {
+    reporter.report(rule::wrong_type, root.range, describe_foreign_file("event script", foreign));
+    return std::nullopt;
+  }
   switch (root.kind) {
     case Kind::null:
       reporter.report(rule::missing_key, root.range, "missing key 'events': the script is empty");

@@ -144,7 +144,10 @@ class Builder : public YAML::EventHandler {
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (!empty()) {
       const std::size_t at = offset(mark);
-      throw Refusal(range_at(at, at + 3), "expected one document, found a second one");
+      const bool is_separated = text_.substr(std::min(at, text_.size()), 3) == "---";
+      throw Refusal(range_at(at, at + 3),
+                    is_separated ? "expected one document, found a second one"
+                                 : "expected the end of the document: is the indentation right?");
     }
   }
   void OnDocumentEnd() override {}
@@ -531,6 +534,11 @@ std::string fault_of_encoding(std::string_view text) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
     return "expected UTF-8, found UTF-16";
   }
+  // Without a mark, the zero bytes of the first ASCII characters show it.
+  std::string zeros;
+  for (const char byte : text.substr(0, 8)) zeros += byte == '\0' ? '0' : 'x';
+  if (zeros == "x000x000" || zeros == "000x000x") return "expected UTF-8, found UTF-32";
+  if (zeros == "x0x0x0x0" || zeros == "0x0x0x0x") return "expected UTF-8, found UTF-16";
   return {};
 }
 

@@ -55,8 +55,8 @@ inline constexpr std::size_t maximum_alias_nodes = 100'000;
 [[nodiscard]] std::unique_ptr<const Document> parse(std::string_view text, std::string file,
                                                     Diagnostics& diagnostics);
 
-/// What is wrong with a text in another encoding of Unicode, by its byte order mark: "expected
-/// UTF-8, found UTF-16". Empty if it has none of another one.
+/// What is wrong with a text in another encoding of Unicode, by its first bytes: "expected UTF-8,
+/// found UTF-16". Empty if they show none.
 [[nodiscard]] std::string fault_of_encoding(std::string_view text);
 
 /// Reads JSON texts, one after the other, into the tree that the YAML parser gives for them, in a

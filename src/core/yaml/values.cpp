@@ -425,10 +425,15 @@ void Fields::report_unknown(UnknownKeys treatment) {
     Standing standing{rule::unknown_key.severity};
     const auto inner = std::find_if(shape_.inner.begin(), shape_.inner.end(),
                                     [&key](const Shape* shape) { return shape->has(key); });
+    const auto hint = std::find_if(shape_.hints.begin(), shape_.hints.end(),
+                                   [&key](const Hint& known) { return known.key == key; });
     const std::string_view suggestion = suggestion_for(key);
     // A list under the name of what it lists ('task:' for 'tasks:') is at the right level.
     const bool is_singular = field.value->kind == Kind::sequence && suggestion == key + "s";
-    if (inner != shape_.inner.end() && !is_singular) {
+    if (hint != shape_.hints.end()) {
+      message += ": " + std::string(hint->advice);
+      if (hint->is_constraint) standing.severity = Severity::error;
+    } else if (inner != shape_.inner.end() && !is_singular) {
       message += ": it belongs to " + std::string((*inner)->what) + ", one level down";
     } else if (shape_.outer != nullptr && shape_.outer->has(key)) {
       message += ": it belongs to " + std::string(shape_.outer->what) + ", one level up";

@@ -31,6 +31,13 @@ struct Key {
   std::optional<std::string_view> (*translate)(const Node& value) = nullptr;
 };
 
+/// A key that a mapping does not have, though people expect it there.
+struct Hint {
+  std::string_view key;
+  std::string_view advice;     ///< where to say it
+  bool is_constraint = false;  ///< without it, more is allowed than was meant: an error
+};
+
 /// What a kind of mapping may contain.
 struct Shape {
   std::string_view what;  ///< "a task"
@@ -38,6 +45,7 @@ struct Shape {
   const Shape* outer = nullptr;              ///< the mapping this one stands in
   std::span<const Shape* const> inner = {};  ///< mappings that stand in this one
   bool is_entry = false;                     ///< it stands in a list
+  std::span<const Hint> hints = {};
 
   [[nodiscard]] bool has(std::string_view key) const;
 };

@@ -303,7 +303,8 @@ std::span<const LintFormat> lint_formats() {
   using Files = const std::vector<LintedFile>&;
   using Run = const LintRun&;
   static constexpr LintFormat formats[] = {
-      {"text", [](Files files, Run run) { return lint_text(files, run.style); }},
+      {"text",
+       [](Files files, Run run) { return lint_text(files, run.style, run.not_understood); }},
       {"json", [](Files files, Run /*run*/) { return lint_json(files); }},
       {"sarif", [](Files files,
                    Run run) { return lint_sarif(files, run.working_directory, run.is_complete); }},

@@ -19,8 +19,11 @@ namespace cbc {
 ///       efficacy: 90
 ///       ^~~~~~~~
 ///       and 2 more like this, on lines 9, 15
-///     3 warnings in 1 catalog
-[[nodiscard]] std::string lint_text(const std::vector<LintedFile>& files, const Style& style);
+///     3 warnings in 1 catalog; 1 file was not understood: b.yaml
+///
+/// `not_understood`: files without findings, which may be those of other programs.
+[[nodiscard]] std::string lint_text(const std::vector<LintedFile>& files, const Style& style,
+                                    const std::vector<std::string>& not_understood = {});
 
 /// The findings in the format of gcc, which editors understand, one place per line:
 ///
@@ -47,9 +50,10 @@ namespace cbc {
 
 /// What a report depends on besides the findings.
 struct LintRun {
-  std::string working_directory;  ///< absolute
-  bool is_complete = true;        ///< all files could be read
-  Style style = plain_style();    ///< of a text for people
+  std::string working_directory;                 ///< absolute
+  bool is_complete = true;                       ///< all files could be read
+  Style style = plain_style();                   ///< of a text for people
+  std::vector<std::string> not_understood = {};  ///< see lint_text
 };
 
 /// A format of `cbc lint`.

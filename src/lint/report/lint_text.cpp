@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -243,16 +244,14 @@ std::string file_to_text(const LintedFile& file, const SourceTexts& sources, con
   return text;
 }
 
-/// "2 catalogs, 1 script"
+/// "2 catalogs, 1 script"; empty if no file was understood.
 std::string count_files(const std::vector<LintedFile>& files) {
   using FileKind = LintedFile::Kind;
   static constexpr std::pair<FileKind, std::string_view> names[] = {
       {FileKind::catalog, "catalog"},
       {FileKind::script, "script"},
       {FileKind::properties, "property file"},
-      {FileKind::settings, "settings file"},
-      {FileKind::unknown, "file"}};
-  if (files.empty()) return "0 files";
+      {FileKind::settings, "settings file"}};
   std::vector<std::string> counts;
   for (const auto& [kind, name] : names) {
     const auto number = static_cast<std::size_t>(
@@ -263,8 +262,20 @@ std::string count_files(const std::vector<LintedFile>& files) {
   return join(counts, ", ");
 }
 
-/// "2 errors, 1 warning in 2 catalogs, 1 script"
-std::string total_of(const std::vector<LintedFile>& files, const Style& style) {
+/// "1 file was not understood: b.yaml"
+std::string list_not_understood(const std::vector<std::string>& names) {
+  constexpr std::size_t most_names = 10;
+  std::string text = fmt::format("{} {} not understood: ", quantity(names.size(), "file"),
+                                 names.size() == 1 ? "was" : "were");
+  const std::size_t shown = names.size() > most_names ? most_names - 1 : names.size();
+  text += join(std::span(names).first(shown), ", ", printable);
+  if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
+  return text;
+}
+
+/// "2 errors, 1 warning in 2 catalogs, 1 script; 1 file was not understood: b.yaml"
+std::string total_of(const std::vector<LintedFile>& files, std::vector<std::string> not_understood,
+                     const Style& style) {
   std::vector<std::string> counts;
   for (const Severity severity : {Severity::error, Severity::warning, Severity::note}) {
     const std::size_t findings = count(files, severity);
@@ -272,17 +283,30 @@ std::string total_of(const std::vector<LintedFile>& files, const Style& style) {
     counts.push_back(style.paint(style.of(severity), quantity(findings, name_of(severity))));
   }
   if (counts.empty()) counts.push_back(style.paint(style.good, "no findings"));
-  return join(counts, ", ") + " in " + count_files(files) + "\n";
+  std::string total = join(counts, ", ");
+  const std::string understood = count_files(files);
+  if (!understood.empty()) total += " in " + understood;
+  // Its finding says what is wrong with the only file.
+  if (files.size() < 2 && understood.empty() && not_understood.empty()) {
+    return total + " in " + quantity(files.size(), "file") + "\n";
+  }
+  for (const LintedFile& file : files) {
+    if (file.kind == LintedFile::Kind::unknown) not_understood.push_back(file.file);
+  }
+  std::sort(not_understood.begin(), not_understood.end());
+  if (!not_understood.empty()) total += "; " + list_not_understood(not_understood);
+  return total + "\n";
 }
 
 }  // namespace
 
-std::string lint_text(const std::vector<LintedFile>& files, const Style& style) {
+std::string lint_text(const std::vector<LintedFile>& files, const Style& style,
+                      const std::vector<std::string>& not_understood) {
   SourceTexts sources;
   for (const LintedFile& file : files) sources.add(file.file, file.text);
   std::string text;
   for (const LintedFile& file : files) text += file_to_text(file, sources, style);
-  return text + total_of(files, style);
+  return text + total_of(files, not_understood, style);
 }
 
 }  // namespace cbc

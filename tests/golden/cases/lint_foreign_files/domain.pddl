@@ -1,0 +1,3 @@
+(define (domain simple)
+ (:requirements :strips :typing)
+ (:types robot room))
