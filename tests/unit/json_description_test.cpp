@@ -13,8 +13,7 @@
 #include "core/yaml/document.h"
 #include "core/yaml/json_value.h"
 
-namespace cbc {
-namespace json_description_test {
+namespace cbc::json_description_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -133,5 +132,4 @@ TEST(JsonDescription, ChoosesMembersByKind) {
 }
 
 }  // namespace
-}  // namespace json_description_test
-}  // namespace cbc
+}  // namespace cbc::json_description_test

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "core/compile/catalog_json.h"
+#include "core/report/pair_matrix.h"
 #include "core/report/reason_words.h"
 #include "core/report/table.h"
 #include "core/report/words.h"
@@ -76,88 +77,34 @@ std::string list_names(const CompiledCatalog& catalog, const std::vector<TaskId>
   return join(tasks, ", ", [&](TaskId task) { return draw::label_of(catalog.name_of_task(task)); });
 }
 
-constexpr std::size_t columns_in_a_block = 5;
-
-/// The matrix as text, in as many parts as it takes for its columns to fit.
-class TextMatrix {
- public:
-  TextMatrix(const CompiledCatalog& catalog, const TogetherTable& table, const Style& style)
-      : table_(table), style_(style), digits_(std::to_string(table.tasks.size()).size()) {
-    for (const TaskId task : table.tasks) {
-      names_.push_back(draw::label_of(catalog.name_of_task(task)));
-    }
-    names_ = shorten(std::move(names_));
-    for (const std::string& name : names_) name_width_ = std::max(name_width_, width_of(name));
+Table::Cell cell_of(const TaskPair& pair, const Style& style) {
+  const std::string sign(1, sign_of(pair));
+  if (pair.is_forbidden) return {sign, style.error};
+  switch (pair.together) {
+    case Together::possible:
+      return {sign, style.good};
+    case Together::undecided:
+      return {sign, style.warning};
+    case Together::excluded:
+      return {sign, style.faint};
+    default:
+      return sign;
   }
+}
 
-  std::string write() && {
-    const std::size_t left = 2 + digits_ + 1 + name_width_ + 1;
-    const std::size_t width = std::max(text_width, left + columns_in_a_block) - left;
-    const std::size_t columns = table_.tasks.size() - 1;
-    // A blank stands between each two blocks.
-    std::size_t most = (width + 1) / (columns_in_a_block + 1) * columns_in_a_block;
-    if (columns + (columns - 1) / columns_in_a_block <= width) most = columns;
-    for (std::size_t first = 0; first + 1 < table_.tasks.size(); first += most) {
-      add_part(first, std::min(first + most, table_.tasks.size() - 1));
-    }
-    return std::move(text_);
+std::string matrix_of(const CompiledCatalog& catalog, const TogetherTable& table,
+                      const Style& style) {
+  std::vector<std::string> names;
+  names.reserve(table.tasks.size());
+  for (const TaskId task : table.tasks) {
+    names.push_back(draw::label_of(catalog.name_of_task(task)));
   }
-
- private:
-  void add_part(std::size_t first, std::size_t end) {
-    std::vector<Table::Column> columns = {number_column({}, digits_), {{}, {}, name_width_, 1}};
-    for (std::size_t column = first; column < end; ++column) {
-      const bool begins_block = (column - first) % columns_in_a_block == 0;
-      columns.push_back({{}, {}, 1, begins_block ? std::size_t{1} : 0});
-    }
-    const Table table(style_, std::move(columns));
-    text_ += '\n';
-    for (std::size_t digit = 0; digit < digits_; ++digit) {
-      Table::Row row = {"", ""};
-      for (std::size_t column = first; column < end; ++column) {
-        const std::string number = fmt::format("{:>{}}", column + 1, digits_);
-        row.emplace_back(number[digit] == ' ' ? "" : number.substr(digit, 1));
-      }
-      text_ += table.line(row, style_.faint);
-    }
-    for (std::size_t row = first; row < table_.tasks.size(); ++row) {
-      Table::Row cells = {row + 1, names_[row]};
-      for (std::size_t column = first; column < std::min(row, end); ++column) {
-        cells.push_back(cell(pair_of(row, column)));
-      }
-      text_ += table.line(cells);
-    }
-  }
-
-  /// By the places of both tasks; `row` is greater than `column`.
-  [[nodiscard]] const TaskPair& pair_of(std::size_t row, std::size_t column) const {
+  return pair_matrix(std::move(names), style, [&](std::size_t row, std::size_t column) {
     // Before the pairs of a column come those of all columns before.
-    const std::size_t before = column * (2 * table_.tasks.size() - column - 1) / 2;
-    return table_.pairs[before + row - column - 1];
-  }
-
-  [[nodiscard]] Table::Cell cell(const TaskPair& pair) const {
-    const std::string sign(1, sign_of(pair));
-    if (pair.is_forbidden) return {sign, style_.error};
-    switch (pair.together) {
-      case Together::possible:
-        return {sign, style_.good};
-      case Together::undecided:
-        return {sign, style_.warning};
-      case Together::excluded:
-        return {sign, style_.faint};
-      default:
-        return sign;
-    }
-  }
-
-  const TogetherTable& table_;
-  const Style& style_;
-  std::vector<std::string> names_;
-  std::size_t name_width_ = 0;
-  std::size_t digits_;
-  std::string text_;
-};
+    const std::size_t before = column * (2 * table.tasks.size() - column - 1) / 2;
+    return cell_of(table.pairs[before + row - column - 1], style);
+  });
+}
 
 /// What each sign of the table means, and how often it stands there.
 std::vector<std::string> legend_of(const TogetherTable& table) {
@@ -192,7 +139,7 @@ std::string together_text(const CompiledCatalog& catalog, const TogetherTable& t
   if (!table.never_run.empty()) {
     text += "  left out, since they can never run: " + list_names(catalog, table.never_run) + "\n";
   }
-  if (table.tasks.size() > 1) text += TextMatrix(catalog, table, style).write();
+  if (table.tasks.size() > 1) text += matrix_of(catalog, table, style);
   for (const TaskPair& pair : table.pairs) {
     const bool is_told = pair.together == Together::possible ||
                          pair.together == Together::excluded ||

@@ -4,13 +4,13 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/check/together.h"
+#include "core/report/pair_matrix.h"
 #include "core/report/table.h"
 #include "core/report/words.h"
 #include "core/support/wording.h"
@@ -211,7 +211,8 @@ class GroupText {
     add_row("start can be refused", refused);
   }
 
-  /// The pairs of tasks that may be requested, of which both run, but never at the same time.
+  /// The pairs of tasks that may be requested, of which both run, but never at the same time: a few
+  /// as a list, more of them as a matrix.
   void add_apart(const Exploration& exploration, const std::vector<std::uint32_t>& tasks,
                  const std::string& never) {
     std::vector<std::uint32_t> candidates;
@@ -220,31 +221,37 @@ class GroupText {
         candidates.push_back(task);
       }
     }
-    std::string label = never + " run together";
+    const std::string label = never + " run together";
     if (candidates.size() > most_tasks_in_pairs) {
       add_row(label,
               {fmt::format("(pairs of more than {} tasks are not listed)", most_tasks_in_pairs)});
       return;
     }
-    auto pair = exploration.together.begin();  // these, too, are in catalog order
+    std::set<std::pair<std::uint32_t, std::uint32_t>> together;
+    for (const auto& pair : exploration.together) together.emplace(pair.a, pair.b);
+    std::vector<std::string> apart;
     for (auto a = candidates.begin(); a != candidates.end(); ++a) {
-      std::vector<std::uint32_t> apart;
       for (auto b = a + 1; b != candidates.end(); ++b) {
-        while (pair != exploration.together.end() &&
-               std::tie(pair->a, pair->b) < std::tie(*a, *b)) {
-          ++pair;
-        }
-        const bool run_together =
-            pair != exploration.together.end() && pair->a == *a && pair->b == *b;
-        if (!run_together) apart.push_back(*b);
+        if (together.contains({*a, *b})) continue;
+        apart.push_back(fmt::format("{} with {}", name_of_task(*a), name_of_task(*b)));
       }
-      if (apart.empty()) continue;
-      const std::string first = name_of_task(*a) + " with";
-      const Table table(text_.style(),
-                        {{{}, {}, label_width}, {{}, {}, width_of(first)}, {{}, {}, 0, 1}},
-                        {.columns = text_width, .breaks = Breaks::after_commas});
-      text_.add(table.line({std::exchange(label, {}), first, join(names_of(apart), ", ")}));
     }
+    if (apart.size() <= most_pairs_in_list) {
+      add_row(label, apart);
+      return;
+    }
+    if (apart.size() == candidates.size() * (candidates.size() - 1) / 2) {
+      add_row(label, {"any two of " + list_with_and(names_of(candidates))});
+      return;
+    }
+    add_row(label, {fmt::format("{}, marked -", quantity(apart.size(), "pair"))});
+    text_.add(pair_matrix(
+        names_of(candidates), text_.style(),
+        [&](std::size_t row, std::size_t column) -> Table::Cell {
+          const bool is_possible = together.contains({candidates[column], candidates[row]});
+          if (is_possible) return {"+", text_.style().good};
+          return {"-", text_.style().faint};
+        }));
   }
 
   void add_single_faults() {
@@ -290,6 +297,7 @@ class GroupText {
   }
 
   static constexpr std::size_t label_width = 24;
+  static constexpr std::size_t most_pairs_in_list = 6;
 
   const VerifyResult& result_;
   const CompiledCatalog& catalog_;
