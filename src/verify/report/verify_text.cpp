@@ -236,12 +236,12 @@ class GroupText {
         apart.push_back(fmt::format("{} with {}", name_of_task(*a), name_of_task(*b)));
       }
     }
-    if (apart.size() <= most_pairs_in_list) {
-      add_row(label, apart);
+    if (candidates.size() > 2 && apart.size() == candidates.size() * (candidates.size() - 1) / 2) {
+      add_row(label, {"any two of " + list_with_and(names_of(candidates))});
       return;
     }
-    if (apart.size() == candidates.size() * (candidates.size() - 1) / 2) {
-      add_row(label, {"any two of " + list_with_and(names_of(candidates))});
+    if (apart.size() <= most_pairs_in_list) {
+      add_row(label, apart);
       return;
     }
     add_row(label, {fmt::format("{}, marked -", quantity(apart.size(), "pair"))});
