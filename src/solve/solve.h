@@ -78,8 +78,8 @@ void tell_left_out(const std::string& page, std::uint64_t events);
 /// status.
 [[nodiscard]] int solve_stream(const SolveOptions& options);
 
-/// Runs the events of a recorded stream again, and compares the outputs. The path is that of the
-/// catalog.
+/// Runs the events of a recorded stream again, and compares the outputs, which are written only if
+/// the format is jsonl. The path is that of the catalog.
 [[nodiscard]] int replay_stream(const SolveOptions& options);
 
 }  // namespace cbc::cli

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
@@ -103,6 +104,14 @@ Values page_address() {
   return values;
 }
 
+/// Compares a log, and reports its events in the format that is wanted.
+int replay(SolveOptions options) {
+  const int compared = replay_stream(options);
+  if (options.format == "jsonl" || compared == exit_unusable) return compared;
+  options.paths.push_back(*options.stream.replay);
+  return std::max(compared, solve_missions(options));
+}
+
 int solve(const SolveOptions& options) {
   if (options.paths.empty()) {
     return usage_error("solve", options.stream.replay ? "expected the catalog of the log"
@@ -113,7 +122,7 @@ int solve(const SolveOptions& options) {
                        "--html cannot be used with '--format jsonl': it draws whole runs; --serve "
                        "shows a stream, and --replay LOG --html FILE draws a recorded one");
   }
-  if (options.stream.replay) return replay_stream(options);
+  if (options.stream.replay) return replay(options);
   if (options.format == "jsonl") return solve_stream(options);
   return solve_missions(options);
 }
@@ -136,12 +145,12 @@ void add_stream_options(Command& command, StreamOptions& options) {
   command
       .option("--state-out", options.state_out, further_output("FILE"),
               "Save the state at the end of a stream (jsonl)")
-      .only_with({"--format jsonl", "--replay"});
+      .only_with({"--format jsonl"});
   Values state = input("FILE", ValueKind::file);
   state.replaced_by = "--state-out";
   command
       .option("--state-in", options.state_in, state, "Continue from a saved state of the catalog")
-      .only_with({"--format jsonl", "--replay"});
+      .only_with({"--format jsonl"});
   command
       .option("--clock", options.clock, one_of("CLOCK", {"events", "real"}),
               "Time of lines without one: events (default) or real")
@@ -151,10 +160,8 @@ void add_stream_options(Command& command, StreamOptions& options) {
       .value_or(default_address)
       .only_with({"--format jsonl"})
       .not_with({"--replay"}, "a log is complete, so --html draws it");
-  command
-      .option("--replay", options.replay, input("LOG", ValueKind::file),
-              "Run the events of a jsonl output again, and compare")
-      .only_with_values("--format", {"jsonl", "text"});
+  command.option("--replay", options.replay, input("LOG", ValueKind::file),
+                 "Run the events of a jsonl output again, and compare");
 }
 
 }  // namespace
@@ -178,7 +185,6 @@ void add_solve_command(Program& program) {
   command.option("-j,--jobs", options->jobs, whole_number("N", 1),
                  "Run N scripts at once (default: all processors)");
   command.flag("--brief", options->brief, "Write one line for each event, no table")
-      .not_with({"--replay"}, "a replay reports no events, only a difference")
       .not_with({"--why", "--alternatives"}, "one line has no room for reasons")
       .only_with_values("--format", {"text"});
   command.flag("--stats", options->stats, "Show the cost of searches, memory and time")

@@ -17,6 +17,7 @@
 #include "core/files/output.h"
 #include "core/files/read.h"
 #include "core/property/property_reader.h"
+#include "core/script/log_script.h"
 #include "core/script/reader.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
@@ -64,7 +65,8 @@ std::optional<CompiledFile> load_compiled(const InputFile& file) {
 }
 
 void complain_of_log(const InputFile& file) {
-  complain("{} is the log of a stream; 'cbc solve --replay' reads it", quote(file.name));
+  complain("{} is the log of a stream; 'cbc solve CATALOG {}' runs its events", quote(file.name),
+           printable(file.name));
 }
 
 void print_findings(const std::vector<Diagnostic>& findings, const Texts& texts) {
@@ -155,7 +157,8 @@ std::shared_ptr<const InputFile> FileSet::parse(const std::string& path, std::st
   return file;
 }
 
-std::shared_ptr<const InputFile> FileSet::read(const std::string& path, NamedBy named_by) {
+std::shared_ptr<const InputFile> FileSet::read(const std::string& path, NamedBy named_by,
+                                               Logs logs) {
   std::shared_ptr<const InputFile> file = open(path, named_by);
   if (file == nullptr || file->is(FileKind::compiled)) return file;
   if (named_by == NamedBy::file && !is_for_cbc(file->what)) {
@@ -167,6 +170,7 @@ std::shared_ptr<const InputFile> FileSet::read(const std::string& path, NamedBy 
     return nullptr;
   }
   if (file->is(FileKind::log)) {
+    if (logs == Logs::accepted) return file;
     complain_of_log(*file);
     return nullptr;
   }
@@ -330,6 +334,16 @@ std::optional<NamedCatalog> FileSet::expect_catalog(const InputFile& file) {
 
 std::optional<Script> FileSet::read_script(const InputFile& file, const CompiledCatalog& catalog,
                                            const Snapshot* state) {
+  if (file.is(FileKind::log)) {
+    std::string error;
+    auto script = read_log(*file.text, catalog, error);
+    if (script) {
+      script->file = file.name;
+    } else {
+      cannot_read(file.name, error);
+    }
+    return script;
+  }
   Diagnostics diagnostics;
   auto script = cbc::read_script(*file.document, catalog, Severity::warning, diagnostics, state);
   // With another situation there may be other findings.

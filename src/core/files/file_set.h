@@ -98,10 +98,12 @@ class FileSet {
   /// The same for a text instead of what is in the file.
   [[nodiscard]] std::shared_ptr<const InputFile> parse(const std::string& path, std::string text);
 
-  /// Reads a file that is to be used. Null if it is a log, or not for cbc, which is reported, or if
-  /// it is not valid YAML, which is a finding.
+  enum class Logs : std::uint8_t { refused, accepted };
+  /// Reads a file that is to be used. Null if it is not for cbc, or a log that is refused, which is
+  /// reported, or if it is not valid YAML, which is a finding.
   [[nodiscard]] std::shared_ptr<const InputFile> read(const std::string& path,
-                                                      NamedBy named_by = NamedBy::command_line);
+                                                      NamedBy named_by = NamedBy::command_line,
+                                                      Logs logs = Logs::refused);
   /// The same for a file that has to be a catalog: a script or a property file is reported.
   [[nodiscard]] std::shared_ptr<const InputFile> read_catalog(
       const std::string& path, NamedBy named_by = NamedBy::command_line);
@@ -153,8 +155,8 @@ class FileSet {
     return known_.at(key_of(path)).fault;
   }
 
-  /// Reads a script, or a property file, on a catalog. Empty if there are errors, which are
-  /// findings.
+  /// Reads a script, also one that is a log, or a property file, on a catalog. Empty if there are
+  /// errors, which are findings; those of a log are printed.
   [[nodiscard]] std::optional<Script> read_script(const InputFile& file,
                                                   const CompiledCatalog& catalog,
                                                   const Snapshot* state = nullptr);

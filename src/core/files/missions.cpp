@@ -47,7 +47,7 @@ void MissionLoader::add_path(const std::string& path) {
     return;
   }
   if (is_left_out(path)) return;
-  if (const auto file = files_.read(path)) {
+  if (const auto file = files_.read(path, NamedBy::command_line, FileSet::Logs::accepted)) {
     add_script(*file);
   } else {
     has_failed_ = true;
@@ -100,6 +100,10 @@ void MissionLoader::add_script(const InputFile& file) {
 std::shared_ptr<const CheckedCatalog> MissionLoader::catalog_of(const InputFile& script) {
   if (is_given_catalog_bad_) return nullptr;
   if (given_catalog_ != nullptr) return given_catalog_;
+  if (script.is(FileKind::log)) {
+    complain("{} is a log: give the catalog before it", quote(script.name));
+    return nullptr;
+  }
   const std::optional<NamedCatalog> named = files_.expect_catalog(script);
   return named ? files_.load(*named) : nullptr;
 }

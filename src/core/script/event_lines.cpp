@@ -149,6 +149,10 @@ EventLog::Entry EventLog::read_event(const Node& event, Reporter& reporter) {
   if (const Node* const time = require(event, "time", reporter)) {
     entry.time = yaml::read_seconds(*time, "time", false, reporter).value_or(0);
   }
+  if (const Node* const index = require(event, "index", reporter)) {
+    const auto number = yaml::read_integer(*index, "index", 0, reporter);
+    entry.index = static_cast<std::uint64_t>(number.value_or(0));
+  }
   if (text_of(event, "origin", reporter) == name_of(Origin::script)) {
     entry.step = read_step(event, reporter);
     entry.step->range = event.range;

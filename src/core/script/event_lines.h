@@ -61,6 +61,7 @@ class EventLog {
   };
   struct Entry {
     bool is_event = false;     ///< false: the answer to a line that was not an event
+    std::uint64_t index = 0;   ///< of an event: how many there are up to it
     Microseconds time = 0;     ///< of an event
     std::optional<Step> step;  ///< of an event of origin script
   };
