@@ -15,6 +15,7 @@
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
 #include "core/script/script.h"
+#include "core/yaml/source.h"
 #include "coverage/coverage.h"
 #include "coverage/engine/mutants/mutants.h"
 #include "coverage/report/coverage_report.h"
@@ -71,7 +72,7 @@ int write_scripts(const std::string& folder, const std::string& path_of_catalog,
                   const MutantsResult& result) {
   const std::string first_key = path_of_catalog.empty()
                                     ? "# Run it with: cbc solve CATALOG FILE"
-                                    : fmt::format("catalog: {}", in_quotes(path_of_catalog));
+                                    : fmt::format("catalog: {}", yaml::in_quotes(path_of_catalog));
   const fs::path catalog = result.catalog->file;
   const std::string stem =
       result.catalog->file == display_name("-") ? "stdin" : catalog.stem().string();

@@ -36,7 +36,22 @@ TEST(LintText, SaysThatThereIsNothing) {
     files.push_back({"a.yaml", "", {}, {}, kind});
   }
   EXPECT_EQ(plain(files),
-            "no findings in 1 catalog, 2 scripts, 1 property file, 1 settings file, 1 file\n");
+            "no findings in 1 catalog, 2 scripts, 1 property file, 1 settings file; 1 file was not "
+            "understood: a.yaml\n");
+  EXPECT_EQ(plain({{"a.yaml", "", {}, {}, Kind::unknown}}), "no findings in 1 file\n");
+}
+
+TEST(LintText, NamesWhatWasNotUnderstood) {
+  const auto list = [](const std::vector<std::string>& names) {
+    return lint_text({{"a.yaml", "", {}, {}}}, plain_style(), names);
+  };
+  EXPECT_EQ(list({"c.yaml", "b.yaml"}),
+            "no findings in 1 catalog; 2 files were not understood: b.yaml, c.yaml\n");
+  EXPECT_EQ(list({"1", "2", "3", "4", "5", "6", "7", "8", "9", "a", "b"}),
+            "no findings in 1 catalog; 11 files were not understood: 1, 2, 3, 4, 5, 6, 7, 8, 9 and "
+            "2 more\n");
+  EXPECT_EQ(lint_text({}, plain_style(), {"b.yaml"}),
+            "no findings; 1 file was not understood: b.yaml\n");
 }
 
 TEST(LintText, GroupsWithinOneRuleSeverityAndFileOnly) {

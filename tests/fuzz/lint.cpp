@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/catalog/older_format.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/yaml/document.h"
 #include "fuzz/target.h"
@@ -29,6 +30,13 @@ LintedCatalog lint(std::string text, const SeveritySettings& settings) {
     linted.file.findings = control_findings(
         diagnostics.release(), {linted.file.file, linted.file.text, nullptr, false}, settings);
     return linted;
+  }
+  if (find_older_format(document->root())) {
+    const Conversion conversion = convert_older_format(*document, linted.file.text);
+    Diagnostics of_conversion;
+    const auto converted = yaml::parse(conversion.text, {}, of_conversion);
+    require(converted != nullptr, "what an older catalog is converted to is not valid YAML");
+    require(!find_older_format(converted->root()), "an older catalog stays one");
   }
   CheckedCatalog checked = check_catalog(*document, linted.file.text, settings,
                                          LintOptions{most_lint_nodes}, std::move(diagnostics));

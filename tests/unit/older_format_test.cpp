@@ -188,6 +188,7 @@ mission: {name: 'a: b', tries: 3}
 behavior_descriptors:
 - behavior: "GO: 1"  # fast
   color: ~
+  hidden: "\U000E0041"
 # tail
 )");
   EXPECT_EQ(conversion.text, R"(# head
@@ -196,6 +197,7 @@ behaviors:
 - behavior: "GO: 1"
   task: "GO: 1"
   x-color: ~
+  x-hidden: "\U000e0041"
 tasks:
 - task: "GO: 1"
 x-mission: {name: "a: b", tries: 3}
@@ -203,7 +205,8 @@ x-mission: {name: "a: b", tries: 3}
 )");
   EXPECT_EQ(messages(conversion),
             "2:1-8 'mission' is not known; it is kept as 'x-mission'\n"
-            "5:3-8 'color' is not known; it is kept as 'x-color'");
+            "5:3-8 'color' is not known; it is kept as 'x-color'\n"
+            "6:3-9 'hidden' is not known; it is kept as 'x-hidden'");
 }
 
 TEST(OlderFormat, HasObstacles) {

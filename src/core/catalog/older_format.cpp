@@ -14,7 +14,6 @@
 #include <span>
 #include <utility>
 
-#include "core/support/json.h"
 #include "core/support/wording.h"
 #include "core/yaml/source.h"
 #include "core/yaml/values.h"
@@ -23,6 +22,7 @@
 namespace cbc {
 namespace {
 
+using yaml::in_quotes;
 using yaml::Kind;
 using yaml::Node;
 
@@ -119,12 +119,6 @@ struct Mention {
   std::string name;
   Range range;
 };
-
-std::string in_quotes(std::string_view text) {
-  std::string quoted;
-  append_text(quoted, text);
-  return quoted;
-}
 
 /// A scalar as it may stand anywhere, also in brackets.
 std::string written(std::string_view text) {

@@ -5,37 +5,15 @@
 #include <fmt/format.h>
 
 #include "core/script/script.h"
-#include "core/support/json.h"
 #include "core/support/wording.h"
+#include "core/yaml/source.h"
 #include "runtime/base/text.h"
 #include "runtime/coordinator/record.h"
 
 namespace cbc {
-
-/// JSON writes what lies beyond U+FFFF and does not show as two escapes, which YAML does not take
-/// for one character.
-std::string in_quotes(std::string_view text) {
-  std::string quoted = "\"";
-  const auto add = [&quoted](std::string_view part) {
-    std::string json;
-    append_text(json, part);
-    quoted.append(json, 1, json.size() - 2);
-  };
-  std::size_t begin = 0;
-  for (std::size_t offset = 0; offset < text.size();) {
-    const utf8::Decoded decoded = utf8::decode(text, offset);
-    if (decoded.character > 0xFFFF && is_control(decoded.character)) {
-      add(text.substr(begin, offset - begin));
-      quoted += fmt::format("\\U{:08x}", static_cast<std::uint32_t>(decoded.character));
-      begin = offset + decoded.bytes;
-    }
-    offset += decoded.bytes;
-  }
-  add(text.substr(begin));
-  return quoted + "\"";
-}
-
 namespace {
+
+using yaml::in_quotes;
 
 std::string situation_map(const CompiledCatalog& catalog, const Situation& situation) {
   std::vector<std::string> entries;

@@ -1,11 +1,16 @@
 #include "core/yaml/source.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <initializer_list>
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "core/support/json.h"
 #include "core/support/wording.h"
+#include "runtime/base/text.h"
 
 namespace cbc::yaml {
 namespace {
@@ -44,6 +49,29 @@ std::optional<std::size_t> end_of_quoted(std::string_view text, std::size_t offs
 }
 
 }  // namespace
+
+/// JSON writes what lies beyond U+FFFF and does not show as two escapes, which YAML does not take
+/// for one character.
+std::string in_quotes(std::string_view text) {
+  std::string quoted = "\"";
+  const auto add = [&quoted](std::string_view part) {
+    std::string json;
+    append_text(json, part);
+    quoted.append(json, 1, json.size() - 2);
+  };
+  std::size_t begin = 0;
+  for (std::size_t offset = 0; offset < text.size();) {
+    const utf8::Decoded decoded = utf8::decode(text, offset);
+    if (decoded.character > 0xFFFF && is_control(decoded.character)) {
+      add(text.substr(begin, offset - begin));
+      quoted += fmt::format("\\U{:08x}", static_cast<std::uint32_t>(decoded.character));
+      begin = offset + decoded.bytes;
+    }
+    offset += decoded.bytes;
+  }
+  add(text.substr(begin));
+  return quoted + "\"";
+}
 
 std::size_t find_content(std::string_view text, std::size_t offset) {
   while (offset < text.size()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct Span {
 [[nodiscard]] inline std::size_t end_of_line(std::string_view text, std::size_t offset) {
   return std::min(text.find('\n', offset), text.size());
 }
+
+/// A text to be written into YAML: in quotes, so that it is not taken for another type, and with
+/// escapes for what does not show.
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// A line of a YAML text. Offsets are in bytes of the text.
 struct SourceLine {
