@@ -74,6 +74,7 @@ void AnswerComparison::compare_events(const std::vector<Happening>& ours,
     while (their_place < theirs.size() && !is_in_both(theirs[their_place], false)) ++their_place;
     const bool has_ours = our_place < ours.size();
     const bool has_theirs = their_place < theirs.size();
+    if (!has_ours && !has_theirs) return;
     if (has_ours && has_theirs && is_same_event(ours[our_place], theirs[their_place])) {
       compare_answers(ours[our_place], theirs[their_place]);
       // Expectations know the outcome of the event of the script, and no other.
@@ -81,8 +82,15 @@ void AnswerComparison::compare_events(const std::vector<Happening>& ours,
       continue;
     }
     if (differences_ == Differences::expectable) return;
-    if (has_ours) note_lone_event(ours[our_place], true, theirs);
-    if (has_theirs) note_lone_event(theirs[their_place], false, ours);
+    const bool is_ours_alone = has_ours && note_lone_event(ours[our_place], true, theirs);
+    const bool is_theirs_alone = has_theirs && note_lone_event(theirs[their_place], false, ours);
+    if (is_ours_alone || is_theirs_alone) return;
+    // Both come in both.
+    const bool is_new = has_ours;
+    const Happening& first = is_new ? ours[our_place] : theirs[their_place];
+    note_event(first, is_new, Aspect::event, [&] {
+      return fmt::format("{} comes earlier in {}", describe(first, is_new), file(is_new));
+    });
     return;
   }
 }
@@ -121,19 +129,16 @@ void AnswerComparison::compare_answers(const Happening& ours, const Happening& t
   compare_queues(ours.queue, theirs.queue, ours.waiting, theirs.waiting);
 }
 
-/// `others`: the events of the other catalog.
-void AnswerComparison::note_lone_event(const Happening& event, bool is_new,
+/// False: it is one of the events of the other catalog, too.
+bool AnswerComparison::note_lone_event(const Happening& event, bool is_new,
                                        const std::vector<Happening>& others) {
   const auto is_same = [&](const Happening& other) {
     return is_new ? is_same_event(event, other) : is_same_event(other, event);
   };
-  const bool is_in_others = std::any_of(others.begin(), others.end(), is_same);
-  if (event.verb == Verb::situation) return;
-  note_event(event, is_new, Aspect::event, [&] {
-    return describe(event, is_new) + (is_in_others
-                                          ? fmt::format(" comes earlier in {}", file(is_new))
-                                          : fmt::format(" in {} only", file(is_new)));
-  });
+  if (std::any_of(others.begin(), others.end(), is_same)) return false;
+  note_event(event, is_new, Aspect::event,
+             [&] { return fmt::format("{} in {} only", describe(event, is_new), file(is_new)); });
+  return true;
 }
 
 bool AnswerComparison::is_same_change(const MoveTrace::Change& ours,
@@ -143,13 +148,13 @@ bool AnswerComparison::is_same_change(const MoveTrace::Change& ours,
 }
 
 void AnswerComparison::compare_changes(const Happening& ours, const Happening& theirs) {
-  using Changes = std::vector<MoveTrace::Change>;
-  const auto skip = [&](const Changes& changes, bool is_new, std::size_t& place) {
+  std::size_t our_place = 0;
+  std::size_t their_place = 0;
+  const auto skip = [&](const std::vector<MoveTrace::Change>& changes, bool is_new,
+                        std::size_t& place) {
     while (place < changes.size() && !models_.is_compared(changes[place].behavior, is_new)) ++place;
     return place < changes.size();
   };
-  std::size_t our_place = 0;
-  std::size_t their_place = 0;
   for (;; ++our_place, ++their_place) {
     const bool has_ours = skip(ours.changes, true, our_place);
     const bool has_theirs = skip(theirs.changes, false, their_place);
@@ -159,25 +164,37 @@ void AnswerComparison::compare_changes(const Happening& ours, const Happening& t
       break;
     }
   }
-  const auto note_missing = [&](const Changes& changes, std::size_t place, const Changes& others,
-                                bool is_new) {
-    for (; skip(changes, is_new, place); ++place) {
-      const MoveTrace::Change& change = changes[place];
-      const bool is_in_others =
-          std::any_of(others.begin(), others.end(), [&](const MoveTrace::Change& other) {
-            return is_new ? is_same_change(change, other) : is_same_change(other, change);
-          });
-      const char* const what = !change.is_activation ? "is deactivated"
-                               : change.success      ? "is activated"
-                                                     : "fails to become active";
-      note_behavior(change.behavior, is_new, Aspect::change, [&] {
-        return fmt::format("{} {} in {}", behavior_name(change.behavior, is_new), what,
-                           is_in_others ? "another order" : file(is_new) + " only");
-      });
-    }
-  };
-  note_missing(ours.changes, our_place, theirs.changes, true);
-  note_missing(theirs.changes, their_place, ours.changes, false);
+  const bool is_ours_alone = note_lone_changes(ours, true, theirs);
+  const bool is_theirs_alone = note_lone_changes(theirs, false, ours);
+  if (is_ours_alone || is_theirs_alone) return;
+  const bool is_new = our_place < ours.changes.size();
+  const std::uint32_t behavior =
+      is_new ? ours.changes[our_place].behavior : theirs.changes[their_place].behavior;
+  note_behavior(behavior, is_new, Aspect::change, [&] {
+    return fmt::format("{} changes in another order", behavior_name(behavior, is_new));
+  });
+}
+
+/// The changes that the other catalog does not make in the same event. False: there is none.
+bool AnswerComparison::note_lone_changes(const Happening& event, bool is_new,
+                                         const Happening& other) {
+  bool is_any = false;
+  for (const MoveTrace::Change& change : event.changes) {
+    if (!models_.is_compared(change.behavior, is_new)) continue;
+    const auto is_same = [&](const MoveTrace::Change& candidate) {
+      return is_new ? is_same_change(change, candidate) : is_same_change(candidate, change);
+    };
+    if (std::any_of(other.changes.begin(), other.changes.end(), is_same)) continue;
+    is_any = true;
+    const char* const what = !change.is_activation ? "is deactivated"
+                             : change.success      ? "is activated"
+                                                   : "fails to become active";
+    note_behavior(change.behavior, is_new, Aspect::change, [&] {
+      return fmt::format("{} {} in {} only", behavior_name(change.behavior, is_new), what,
+                         file(is_new));
+    });
+  }
+  return is_any;
 }
 
 void AnswerComparison::compare_stops(const Happening& ours, const Happening& theirs) {
@@ -287,13 +304,13 @@ std::string AnswerComparison::name_of(std::uint32_t task) const {
   return std::string(in.catalog().name_of_task(in.tasks()[of_new != none ? of_new : of_old].id));
 }
 
-/// The name, and that in the old catalog if it is another one.
+/// The name, and the old one if it is another.
 std::string AnswerComparison::label_of(std::uint32_t task) const {
   const std::string name = printable(name_of(task));
   if (!ModelPair::is_in_both(models_.tasks[task])) return name;
   const TaskId of_old = models_.old_model.tasks()[models_.tasks[task].second].id;
   const std::string old_name = printable(models_.old_model.catalog().name_of_task(of_old));
-  return old_name == name ? name : fmt::format("{} ({} in {})", name, old_name, file(false));
+  return old_name == name ? name : fmt::format("{} (was {})", name, old_name);
 }
 
 /// "start", "reactive start", "finish of GPS"

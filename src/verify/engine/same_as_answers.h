@@ -68,7 +68,8 @@ class AnswerComparison {
   void note_behavior(std::uint32_t behavior, bool is_new, Aspect aspect, const ToLine& to_line);
   template <typename ToLine>
   void note_event(const Happening& event, bool is_new, Aspect aspect, const ToLine& to_line);
-  void note_lone_event(const Happening& event, bool is_new, const std::vector<Happening>& others);
+  bool note_lone_event(const Happening& event, bool is_new, const std::vector<Happening>& others);
+  bool note_lone_changes(const Happening& event, bool is_new, const Happening& other);
 
   [[nodiscard]] const Model& model(bool is_new) const {
     return is_new ? models_.new_model : models_.old_model;

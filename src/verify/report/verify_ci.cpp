@@ -73,6 +73,13 @@ TestCase comparison_case(std::string name, const std::vector<std::string>& lines
   return test;
 }
 
+/// "LAND and 2 other tasks"
+std::string name_of_groups(const GroupComparison& groups) {
+  const std::string first = printable(groups.tasks.front());
+  const std::size_t others = groups.tasks.size() - 1;
+  return others == 0 ? first : fmt::format("{} and {}", first, quantity(others, "other task"));
+}
+
 constexpr std::string_view nothing_compared = "no start, stop or finish comes in both";
 
 /// The events of groups of both catalogs. `differences`: those of the groups.
@@ -87,7 +94,7 @@ TestCase case_of(const VerifyResult& result, const GroupComparison& groups,
   for (const ReportedDifference& reported : differences) {
     for (std::string& line : lines_of(reported)) all_lines.push_back(std::move(line));
   }
-  TestCase test = comparison_case("events of " + join(groups.tasks, ", ", printable), all_lines);
+  TestCase test = comparison_case("events of " + name_of_groups(groups), all_lines);
   for (const ReportedDifference& reported : differences) {
     const std::string& script = reported.difference->witness.text;
     test.details += "\n" + script;

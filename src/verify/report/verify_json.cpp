@@ -198,8 +198,7 @@ constexpr std::string_view meaning_of_old_script =
 
 constexpr auto task_difference = object(
     "task_difference", "",
-    member("task", any_text, "Its name, in this catalog if it has the task.",
-           &TaskDifference::task),
+    member("task", text, "Its name, in this catalog if it has the task.", &TaskDifference::task),
     member("aspect", words(TaskDifference::Aspect::queue),
            "outcome: of the event. running: the task runs in one of them only, or with another "
            "behavior. event, change, stop: something happens on the way in one of them only, or in "

@@ -480,8 +480,13 @@ void add_comparison(const VerifyResult& result, Text& text) {
   add_names("renamed", comparison.names.renamed);
   add_names("only " + old_name + " has", comparison.names.only_old);
   add_names("only " + new_name + " has", comparison.names.only_new);
+  bool is_any_missing = false;
   for (const DirectDifference& difference : comparison.direct) {
     text.line("  {} {}", style.paint(style.bad, "different:"), difference.line);
+    is_any_missing = is_any_missing || difference.kind <= DirectDifference::Kind::value;
+  }
+  if (is_any_missing) {
+    text.line("  (--renamed OLD=NEW pairs two names, --allow-missing ignores what only one has)");
   }
   add_compared_events(result, text);
   for (const ReportedDifference& difference : reported.differences) {
