@@ -19,6 +19,8 @@ struct VerifyOptions {
   std::optional<std::uint64_t> jobs;
   bool reduce = false;
   std::optional<std::string> same_as;
+  std::vector<std::string> renamed;  ///< OLD=NEW
+  bool allow_missing = false;
   StateLimits limits;
   std::vector<std::string> cut_sets;  ///< names of tasks
   std::uint32_t order = 2;

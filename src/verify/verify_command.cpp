@@ -27,6 +27,18 @@ Values situation_entry() {
   return values;
 }
 
+Values old_and_new_name() {
+  Values values;
+  values.placeholder = "OLD=NEW";
+  values.expected = "the names of a task, behavior or variable in both catalogs";
+  values.check = [](const std::string& text) -> std::string {
+    const std::size_t equals = text.find('=');
+    if (equals != 0 && equals != std::string::npos && equals + 1 < text.size()) return {};
+    return fmt::format("expected OLD=NEW, such as LAND=DESCEND, found {}", quote(text));
+  };
+  return values;
+}
+
 constexpr const char* verify_examples =
     "  cbc verify robot.yaml                     what can happen at all\n"
     "  cbc verify robot.properties.yaml          prove properties, or break them\n"
@@ -70,11 +82,18 @@ void add_verify_command(Program& program) {
   command.option("-j,--jobs", options->jobs, whole_number("N", 1),
                  "Explore with N threads (default: all processors)");
   command.flag("--reduce", options->reduce, "Merge states that differ only in orders of requests");
-  command
-      .option("--same-as", options->same_as, input("OLD", ValueKind::catalog),
-              "Prove that CATALOG decides as the catalog OLD does")
-      .not_with({"--format junit", "--format github"}, "it has no place for a comparison");
   command.add_confinement();
+
+  command.group("Comparison");
+  command.option("--same-as", options->same_as, input("OLD", ValueKind::catalog),
+                 "Prove that CATALOG decides as the catalog OLD does");
+  command
+      .option("--renamed", options->renamed, old_and_new_name(),
+              "OLD is called NEW in CATALOG; repeatable")
+      .only_with({"--same-as"});
+  command
+      .flag("--allow-missing", options->allow_missing, "What only one of them has does not count")
+      .only_with({"--same-as"});
 
   command.group("Limits");
   add_state_limits(command, options->limits);

@@ -255,14 +255,13 @@ class Call {
         std::all_of(questions_.files.begin(), questions_.files.end(),
                     [](const auto& file) { return !file->properties.empty(); }) &&
         !questions_.files.empty();
-    const char* const needs_properties = format.needs_properties                 ? "--format"
+    const char* const needs_properties = format.needs_tests && !options_.same_as ? "--format"
                                          : options_.scripts && !options_.same_as ? "--scripts"
                                          : options_.html                         ? "--html"
                                                                                  : nullptr;
     if (needs_properties != nullptr && !has_properties) {
       return usage_error("verify", "{}{}{} needs property files with properties", needs_properties,
-                         format.needs_properties ? " " : "",
-                         format.needs_properties ? options_.format : "");
+                         format.needs_tests ? " " : "", format.needs_tests ? options_.format : "");
     }
     const char* const takes_one_file = result_.wants_cut_sets ? "--cut-sets"
                                        : options_.same_as     ? "--same-as"
@@ -275,6 +274,7 @@ class Call {
     if (!tasks) return exit_unusable;
     cut_tasks_ = *tasks;
     if (const int status = read_situation(); status != exit_ok) return status;
+    if (const int status = read_renames(); status != exit_ok) return status;
     return prepare_outputs(options_);
   }
 
@@ -287,6 +287,17 @@ class Call {
     if (!situation_ && questions_.files.size() == 1) {
       const SituationPart& initially = questions_.files.front()->assumptions.initially;
       if (!initially.variables.empty() || !initially.behaviors.empty()) situation_ = initially;
+    }
+    return exit_ok;
+  }
+
+  int read_renames() {
+    for (const std::string& entry : options_.renamed) {
+      const std::size_t equals = entry.find('=');
+      const std::string fault =
+          add_rename(*questions_.old_catalog, catalog_, std::string_view(entry).substr(0, equals),
+                     std::string_view(entry).substr(equals + 1), comparison_.renames);
+      if (!fault.empty()) return usage_error("verify", "--renamed: {}", fault);
     }
     return exit_ok;
   }
@@ -351,33 +362,63 @@ class Call {
       progress.show(describe_progress(so_far, Clock::now() - begin));
       return !signals_.have_come();
     };
-    const Assumptions assumptions = result_.parts.empty()
-                                        ? common_assumptions(old_catalog, catalog_)
-                                        : result_.parts.front().file->assumptions;
+    comparison_.is_by_default = result_.parts.empty();
+    comparison_.allow_missing = options_.allow_missing;
     ReportedComparison& reported = result_.same_as.emplace();
     reported.old_catalog = questions_.old_catalog;
-    reported.comparison = compare_catalogs(old_catalog, catalog_, assumptions, of_comparison);
+    reported.assumptions = result_.parts.empty()
+                               ? common_assumptions(old_catalog, catalog_, comparison_.renames)
+                               : result_.parts.front().file->assumptions;
+    reported.comparison =
+        compare_catalogs(old_catalog, catalog_, reported.assumptions, of_comparison, comparison_);
     progress.clear();
     if (reported.comparison.error) return complain(*reported.comparison.error);
-    return reported.comparison.witness ? replay_difference(reported) : exit_ok;
+    for (GroupComparison& group : reported.comparison.groups) {
+      for (EventDifference& difference : group.differences) {
+        const int status = report_difference(difference, reported);
+        if (status != exit_ok) return status;
+      }
+    }
+    return exit_ok;
   }
 
   [[nodiscard]] Style style_of_replays() const {
     return options_.format == "text" ? style_for(options_.output) : plain_style();
   }
 
-  int replay_difference(ReportedComparison& reported) {
+  int report_difference(EventDifference& difference, ReportedComparison& reported) {
     const Style style = style_of_replays();
-    Witness& witness = *reported.comparison.witness;
-    witness.script.file = "difference";
-    reported.with_new = replay(catalog_, witness.script, nullptr, style);
-    Script& of_old = reported.comparison.old_script;
-    of_old.file = witness.script.file;
-    reported.with_old = replay(*questions_.old_catalog, of_old, nullptr, style);
+    ReportedDifference& added = reported.differences.emplace_back();
+    added.difference = &difference;
+    Script& of_new = difference.witness.script;
+    Script& of_old = difference.old_script;
+    of_new.file = "difference";
+    of_old.file = of_new.file;
+    const Microseconds last_move = time_of_last_move(difference);
+    added.with_new = replay(catalog_, of_new, nullptr, style, last_move);
+    added.with_old = replay(*questions_.old_catalog, of_old, nullptr, style, last_move);
     if (!options_.scripts) return exit_ok;
-    const fs::path path = fs::path(*options_.scripts) / "difference.mission.yaml";
-    reported.script_path = path.string();
-    return write_output(*reported.script_path, witness.text);
+    const std::size_t number = reported.differences.size();
+    const std::string name = number == 1 ? "difference" : fmt::format("difference-{}", number);
+    int status = write_script_of(name, difference.witness.text, added.script_path);
+    if (status == exit_ok && difference.old_text) {
+      status = write_script_of(name + ".old", *difference.old_text, added.old_script_path);
+    }
+    return status;
+  }
+
+  [[nodiscard]] int write_script_of(const std::string& name, const std::string& text,
+                                    std::optional<std::string>& path) const {
+    path = (fs::path(*options_.scripts) / (name + ".mission.yaml")).string();
+    return write_output(*path, text);
+  }
+
+  /// No event of the script is at or after the time of a last move that the clock makes.
+  static Microseconds time_of_last_move(const EventDifference& difference) {
+    const auto& steps = difference.old_script.steps;
+    const bool is_due = difference.moves.back().kind == Move::Kind::due;
+    if (steps.empty()) return 0;
+    return steps.back().time.value_or(0) + (is_due ? 1 : 0);
   }
 
   static std::string name_groups(const std::vector<GroupId>& groups) {
@@ -508,6 +549,7 @@ class Call {
   VerifyResult result_;
   std::vector<TaskId> cut_tasks_;
   std::optional<SituationPart> situation_;
+  ComparisonScope comparison_;
 };
 
 }  // namespace

@@ -218,4 +218,28 @@ std::string change_one(Catalog& catalog, Random& random) {
   return kind.change(catalog, random) ? kind.name : std::string();
 }
 
+bool remove_task(Catalog& catalog, Random& random) {
+  if (catalog.tasks.size() < 2) return false;
+  for (oracle::Task& task : catalog.tasks) task.listed = true;
+  const std::size_t removed = random.below(catalog.tasks.size());
+  const auto is_removed = [&](const auto& part) { return part.task == removed; };
+  const auto close_gap = [&](std::size_t& task) {
+    if (task > removed) --task;
+  };
+  catalog.tasks.erase(catalog.tasks.begin() + static_cast<std::ptrdiff_t>(removed));
+  for (oracle::Behavior& behavior : catalog.behaviors) {
+    std::erase_if(behavior.performs, is_removed);
+    std::erase_if(behavior.requirements, is_removed);
+    for (oracle::Performance& performance : behavior.performs) close_gap(performance.task);
+    for (oracle::Requirement& requirement : behavior.requirements) close_gap(requirement.task);
+  }
+  std::erase_if(catalog.behaviors,
+                [](const oracle::Behavior& behavior) { return behavior.performs.empty(); });
+  for (auto& list : catalog.exclusivity) {
+    std::erase(list, removed);
+    for (std::size_t& task : list) close_gap(task);
+  }
+  return !catalog.behaviors.empty();
+}
+
 }  // namespace cbc::plain

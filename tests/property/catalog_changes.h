@@ -15,4 +15,8 @@ namespace cbc::plain {
 /// such thing. The result need not be a valid catalog.
 [[nodiscard]] std::string change_one(oracle::Catalog& catalog, oracle::Random& random);
 
+/// Removes a task, what requires and excludes it, and the behaviors that perform nothing else.
+/// False: it was the only one.
+[[nodiscard]] bool remove_task(oracle::Catalog& catalog, oracle::Random& random);
+
 }  // namespace cbc::plain

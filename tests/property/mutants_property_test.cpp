@@ -341,7 +341,7 @@ std::optional<bool> can_be_noticed(const Case& one, const std::string& key,
   }
   if (!key.starts_with("timeout") && !key.starts_with("execution_goal")) {
     const PlainComparison found = compare_plainly(compiled, catalog, one.assumptions, most_states,
-                                                  PlainDifferences::expectable);
+                                                  {PlainDifferences::expectable});
     return found.is_complete ? std::optional(found.differs) : std::nullopt;
   }
   if (!one.assumptions.failures) return false;

@@ -38,24 +38,53 @@ std::string named(const CompiledCatalog& catalog, const VisibleState& state) {
   return text + "; waiting" + names(state.waiting);
 }
 
+using NameMap = std::map<std::string, std::string>;
+
+NameMap inverse(const NameMap& names) {
+  NameMap result;
+  for (const auto& [from, to] : names) result[to] = from;
+  return result;
+}
+
+/// What a name is called in the other catalog, if it has it; a name that another one was changed to
+/// stands for that alone.
+template <typename Has>
+std::optional<std::string> other_name(const std::string& name, const NameMap& renames,
+                                      const Has& other_has) {
+  if (const auto renamed = renames.find(name); renamed != renames.end()) return renamed->second;
+  const bool is_taken = std::any_of(renames.begin(), renames.end(),
+                                    [&](const auto& renamed) { return renamed.second == name; });
+  return !is_taken && other_has(name) ? std::optional(name) : std::nullopt;
+}
+
 /// The numbers of one catalog for those of another; nothing for what it does not have.
 class Names {
  public:
-  Names(const CompiledCatalog& from, const CompiledCatalog& to) : from_(from), to_(to) {}
+  Names(const CompiledCatalog& from, const CompiledCatalog& to, PlainRenames renames)
+      : from_(from), to_(to), renames_(std::move(renames)) {}
 
   [[nodiscard]] std::optional<TaskId> task(TaskId id) const {
-    const auto found = to_.find_task(from_.name_of_task(id));
-    return found ? std::optional(to_.task_ids[*found]) : std::nullopt;
+    const auto name = other_name(std::string(from_.name_of_task(id)), renames_.tasks,
+                                 [&](const auto& one) { return to_.find_task(one).has_value(); });
+    return name ? std::optional(to_.task_ids[to_.find_task(*name).value()]) : std::nullopt;
   }
   [[nodiscard]] std::optional<BehaviorId> behavior(BehaviorId id) const {
-    const auto found = to_.find_behavior(from_.name_of_behavior(id));
-    return found ? std::optional(to_.behavior_ids[*found]) : std::nullopt;
+    const auto name =
+        other_name(std::string(from_.name_of_behavior(id)), renames_.behaviors,
+                   [&](const auto& one) { return to_.find_behavior(one).has_value(); });
+    return name ? std::optional(to_.behavior_ids[to_.find_behavior(*name).value()]) : std::nullopt;
+  }
+  [[nodiscard]] std::optional<std::uint32_t> variable(std::uint32_t id) const {
+    const auto name =
+        other_name(std::string(from_.name_of_variable(id)), renames_.variables,
+                   [&](const auto& one) { return to_.find_variable(one).has_value(); });
+    return name ? to_.find_variable(*name) : std::nullopt;
   }
   [[nodiscard]] std::optional<VariableValue> value(VariableValue value) const {
-    const auto variable = to_.find_variable(from_.name_of_variable(value.variable));
-    if (!variable) return std::nullopt;
-    const auto found = to_.find_value(*variable, from_.name_of_value(value));
-    return found ? std::optional(VariableValue{*variable, *found}) : std::nullopt;
+    const auto known = variable(value.variable);
+    if (!known) return std::nullopt;
+    const auto found = to_.find_value(*known, from_.name_of_value(value));
+    return found ? std::optional(VariableValue{*known, *found}) : std::nullopt;
   }
 
   [[nodiscard]] std::optional<Move> move(Move move) const {
@@ -64,9 +93,9 @@ class Names {
         return move;
       case Move::Kind::start:
       case Move::Kind::stop: {
-        const auto found = to_.find_task(from_.task_names[move.subject]);
+        const auto found = task(from_.task_ids[move.subject]);
         if (!found) return std::nullopt;
-        move.subject = *found;
+        move.subject = to_.tasks[*found].catalog_index;
         return move;
       }
       case Move::Kind::variable: {
@@ -75,9 +104,9 @@ class Names {
         return Move{move.kind, found->variable, static_cast<std::int32_t>(found->value)};
       }
       default: {
-        const auto found = to_.find_behavior(from_.behavior_names[move.subject]);
+        const auto found = behavior(from_.behavior_ids[move.subject]);
         if (!found) return std::nullopt;
-        move.subject = *found;
+        move.subject = to_.behaviors[*found].catalog_index;
         return move;
       }
     }
@@ -95,9 +124,7 @@ class Names {
     }
     result.variables.clear();
     for (const std::uint32_t one : from.variables) {
-      if (const auto found = to_.find_variable(from_.name_of_variable(one))) {
-        result.variables.push_back(*found);
-      }
+      if (const auto found = variable(one)) result.variables.push_back(*found);
     }
     result.behaviors.clear();
     for (const BehaviorId one : from.behaviors) {
@@ -129,6 +156,107 @@ class Names {
 
   const CompiledCatalog& from_;
   const CompiledCatalog& to_;
+  const PlainRenames renames_;
+};
+
+/// What happens in one of two catalogs, as far as it is about what both have, in the names of the
+/// new one.
+class CommonWords {
+ public:
+  /// `to_new`: null: it is the new catalog.
+  CommonWords(const CompiledCatalog& catalog, const CompiledCatalog& new_catalog,
+              const Names& to_other, const Names* to_new)
+      : catalog_(catalog), new_(new_catalog), to_other_(to_other), to_new_(to_new) {}
+
+  [[nodiscard]] bool has_both(TaskId task) const { return to_other_.task(task).has_value(); }
+  /// Also of what only one of them has.
+  [[nodiscard]] std::string name(TaskId task) const {
+    if (!has_both(task) || to_new_ == nullptr) return std::string(catalog_.name_of_task(task));
+    return std::string(new_.name_of_task(to_new_->task(task).value()));
+  }
+  [[nodiscard]] std::string name(BehaviorId behavior) const {
+    if (!to_other_.behavior(behavior)) {
+      return std::string(catalog_.name_of_behavior(behavior)) + (to_new_ ? " of old" : " of new");
+    }
+    if (to_new_ == nullptr) return std::string(catalog_.name_of_behavior(behavior));
+    return std::string(new_.name_of_behavior(to_new_->behavior(behavior).value()));
+  }
+  /// The behaviors of tasks that run.
+  [[nodiscard]] std::map<std::string, std::string> running(const VisibleState& state,
+                                                           bool of_both) const {
+    std::map<std::string, std::string> names;
+    for (const auto& [task, behavior] : state.running) {
+      if (has_both(task) == of_both) names[name(task)] = name(behavior);
+    }
+    return names;
+  }
+  [[nodiscard]] std::string describe(const VisibleState& state) const {
+    std::string text;
+    for (const auto& [task, behavior] : running(state, true)) text += task + ":" + behavior + " ";
+    for (const auto& set : state.queue) text += "[" + describe(set) + "]";
+    return text + " waiting" + describe(state.waiting);
+  }
+  /// Nothing if it is about something else.
+  [[nodiscard]] std::optional<std::string> describe(const Happening& event) const {
+    if (event.task != none && !has_both(event.task)) return std::nullopt;
+    if (event.verb == Verb::fault || event.verb == Verb::repair) return std::nullopt;
+    if (event.behavior != none && !is_common(event.behavior)) return std::nullopt;
+    std::string text(name_of(event.verb));
+    text.append(" ").append(name_of(event.origin)).append(" ");
+    if (event.task != none) text += name(event.task);
+    if (event.behavior != none) text += name(event.behavior);
+    text.append(" ").append(name_of(event.outcome));
+    for (const Happening::Change& change : event.changes) {
+      if (!is_common(change.behavior)) continue;
+      text += (change.is_activation ? " +" : " -") + name(change.behavior) +
+              (change.success ? "" : "!");
+    }
+    std::set<std::string> stopped;
+    for (const auto& [task, cause] : event.stopped) {
+      if (has_both(task)) stopped.insert(name(task) + " " + std::string(name_of(cause)));
+    }
+    for (const std::string& one : stopped) text += "; stopped " + one;
+    return text + "; " + describe(event.after);
+  }
+
+ private:
+  /// Whether both have the behavior, and one of the tasks that it performs here.
+  [[nodiscard]] bool is_common(BehaviorId behavior) const {
+    const auto values = catalog_.performs[behavior];
+    return to_other_.behavior(behavior) &&
+           std::any_of(values.begin(), values.end(),
+                       [&](ValueId value) { return has_both(catalog_.task_of(value)); });
+  }
+  [[nodiscard]] std::string describe(const std::vector<TaskId>& tasks) const {
+    std::set<std::string> sorted;
+    for (const TaskId task : tasks) {
+      if (has_both(task)) sorted.insert(name(task));
+    }
+    std::string text;
+    for (const std::string& one : sorted) text += " " + one;
+    return text;
+  }
+
+  const CompiledCatalog& catalog_;
+  const CompiledCatalog& new_;
+  const Names& to_other_;
+  const Names* const to_new_;
+};
+
+/// A catalog in which the tasks that another one does not have start on request at most.
+struct QuietCatalog {
+  QuietCatalog(const CompiledCatalog& from, const Names& to_other)
+      : tasks(from.tasks.begin(), from.tasks.end()), catalog(from) {
+    for (TaskId task(0); task < tasks.size(); ++task) {
+      if (!to_other.task(task)) tasks[task].reactive_start = 0;
+    }
+    catalog.tasks = tasks;
+  }
+  QuietCatalog(const QuietCatalog&) = delete;
+  QuietCatalog& operator=(const QuietCatalog&) = delete;
+
+  std::vector<CompiledTask> tasks;
+  CompiledCatalog catalog;
 };
 
 struct Groups {
@@ -138,28 +266,30 @@ struct Groups {
 
 /// Puts groups together that have a name in common, until no two are left that have.
 std::vector<Groups> join_groups(const CompiledCatalog& old_catalog,
-                                const CompiledCatalog& new_catalog) {
+                                const CompiledCatalog& new_catalog, const CommonWords& old_words,
+                                const CommonWords& new_words) {
   struct Named {
     Groups groups;
     std::set<std::string> names;
   };
   std::vector<Named> all;
-  const auto add = [&](const CompiledCatalog& catalog, bool is_new) {
+  const auto add = [&](const CompiledCatalog& catalog, const CommonWords& words, bool is_new) {
+    const std::string side = is_new ? " of new" : " of old";
     for (GroupId group(0); group < catalog.group_count(); ++group) {
       Named& one = all.emplace_back();
       (is_new ? one.groups.of_new : one.groups.of_old).push_back(group);
       for (const TaskId task : catalog.task_ids) {
         if (catalog.tasks[task].group != group) continue;
-        one.names.insert("task " + std::string(catalog.name_of_task(task)));
+        one.names.insert("task " + words.name(task) + (words.has_both(task) ? "" : side));
       }
       for (const BehaviorId behavior : catalog.behavior_ids) {
         if (catalog.group_of(behavior) != group) continue;
-        one.names.insert("behavior " + std::string(catalog.name_of_behavior(behavior)));
+        one.names.insert("behavior " + words.name(behavior));
       }
     }
   };
-  add(new_catalog, true);
-  add(old_catalog, false);
+  add(new_catalog, new_words, true);
+  add(old_catalog, old_words, false);
   const auto meet = [](const Named& a, const Named& b) {
     return std::any_of(a.names.begin(), a.names.end(),
                        [&](const std::string& name) { return b.names.contains(name); });
@@ -196,10 +326,13 @@ class PairSearch {
  public:
   PairSearch(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
              const Groups& groups, const Assumptions& old_assumptions,
-             const Assumptions& new_assumptions, PlainDifferences differences)
-      : differences_(differences),
-        to_old_(new_catalog, old_catalog),
-        to_new_(old_catalog, new_catalog),
+             const Assumptions& new_assumptions, const Names& to_old, const Names& to_new,
+             const CommonWords& old_words, const CommonWords& new_words, const PlainScope& scope)
+      : scope_(scope),
+        to_old_(to_old),
+        to_new_(to_new),
+        old_words_(old_words),
+        new_words_(new_words),
         old_(old_catalog, groups.of_old, old_assumptions),
         new_(new_catalog, groups.of_new, new_assumptions) {}
 
@@ -267,26 +400,37 @@ class PairSearch {
     return model.step(state, move, &happenings).next;
   }
 
-  [[nodiscard]] std::vector<std::string> observe(const PlainModel& model, const Move& move,
+  /// What both have.
+  [[nodiscard]] std::vector<std::string> observe(const PlainModel& model, const CommonWords& words,
+                                                 const Move& move,
                                                  const std::vector<Happening>& happenings,
-                                                 const Snapshot& end) const {
+                                                 const VisibleState& end) const {
     std::vector<std::string> lines;
-    if (differences_ == PlainDifferences::expectable) {
+    if (scope_.differences == PlainDifferences::expectable) {
       if (move.kind <= Move::Kind::situation_change) {
         lines.emplace_back(name_of(happenings.front().outcome));
       }
-      VisibleState visible = model.visible(end);
-      visible.queue.clear();
-      visible.waiting.clear();
-      lines.push_back(named(model.catalog(), visible));
+      VisibleState running = end;
+      running.queue.clear();
+      running.waiting.clear();
+      lines.push_back(named(model.catalog(), running));
       return lines;
     }
-    for (const Happening& one : happenings) lines.push_back(named(model.catalog(), one));
-    lines.push_back(named(model.catalog(), model.visible(end)));
+    for (const Happening& one : happenings) {
+      if (const auto line = words.describe(one)) lines.push_back(*line);
+    }
+    lines.push_back(words.describe(end));
     return lines;
   }
 
-  /// True if a move differs, which ends the search.
+  [[nodiscard]] static bool has_decision(const CommonWords& words,
+                                         const std::vector<Happening>& happenings) {
+    return std::any_of(happenings.begin(), happenings.end(), [&](const Happening& one) {
+      return form_of(one.verb).is_decided && words.describe(one);
+    });
+  }
+
+  /// True if a move differs, and that ends the search.
   [[nodiscard]] bool expand(std::size_t place, PlainComparison& result) {
     const Node node = nodes_[place];  // the nodes may move
     for (const Move& move : moves_of(node)) {
@@ -297,19 +441,54 @@ class PairSearch {
                 node.depth + 1};
       if (new_.is_excluded(next.of_new) || old_.is_excluded(next.of_old)) continue;
       ++result.transitions;
-      if (observe(new_, move, of_new, next.of_new) != observe(old_, move, of_old, next.of_old)) {
-        note_difference(place, move, result);
-        return true;
+      const VisibleState new_end = new_.visible(next.of_new);
+      const VisibleState old_end = old_.visible(next.of_old);
+      // The events before the first that is not the same in both came in both, and so did that.
+      if (has_decision(new_words_, of_new) && has_decision(old_words_, of_old)) {
+        result.is_compared = true;
       }
-      add(std::move(next));
+      const bool is_alike = observe(new_, new_words_, move, of_new, new_end) ==
+                            observe(old_, old_words_, move, of_old, old_end);
+      bool differs = !is_alike;
+      for (const bool of_both : {true, false}) {
+        if (!of_both && scope_.allow_missing) continue;
+        if (note_running(place, move, new_words_.running(new_end, of_both),
+                         old_words_.running(old_end, of_both), result)) {
+          differs = true;
+        }
+      }
+      if (differs) note_difference(place, move, result);
+      if (differs && scope_.differences == PlainDifferences::expectable) return true;
+      if (is_alike) add(std::move(next));
     }
     return false;
   }
 
-  void note_difference(std::size_t place, const Move& move, PlainComparison& result) const {
-    std::vector<Move> moves{move};
+  /// False: there is no difference.
+  bool note_running(std::size_t place, const Move& move,
+                    const std::map<std::string, std::string>& of_new,
+                    const std::map<std::string, std::string>& of_old, PlainComparison& result) {
+    std::set<std::string> differing;
+    for (const auto& entry : of_new) {
+      const auto other = of_old.find(entry.first);
+      if (other == of_old.end() || other->second != entry.second) differing.insert(entry.first);
+    }
+    for (const auto& entry : of_old) {
+      if (!of_new.contains(entry.first)) differing.insert(entry.first);
+    }
+    for (const std::string& task : differing) result.running.emplace(task, path_of(place, move));
+    return !differing.empty();
+  }
+
+  [[nodiscard]] std::vector<Move> path_of(std::size_t place, const Move& last) const {
+    std::vector<Move> moves{last};
     for (std::size_t at = place; at != 0; at = nodes_[at].parent) moves.push_back(nodes_[at].move);
     std::reverse(moves.begin(), moves.end());
+    return moves;
+  }
+
+  void note_difference(std::size_t place, const Move& move, PlainComparison& result) const {
+    std::vector<Move> moves = path_of(place, move);
     const auto comes_first = [&](const std::vector<Move>& a, const std::vector<Move>& b) {
       if (a.size() != b.size()) return a.size() < b.size();
       return std::lexicographical_compare(
@@ -321,9 +500,11 @@ class PairSearch {
     result.moves = std::move(moves);
   }
 
-  const PlainDifferences differences_;
-  Names to_old_;
-  Names to_new_;
+  const PlainScope& scope_;
+  const Names& to_old_;
+  const Names& to_new_;
+  const CommonWords& old_words_;
+  const CommonWords& new_words_;
   PlainModel old_;
   PlainModel new_;
   std::deque<Node> nodes_;
@@ -354,13 +535,22 @@ std::string named(const CompiledCatalog& catalog, const Happening& happening) {
 
 PlainComparison compare_plainly(const CompiledCatalog& old_catalog,
                                 const CompiledCatalog& new_catalog, const Assumptions& assumptions,
-                                std::uint64_t max_states, PlainDifferences differences) {
+                                std::uint64_t max_states, const PlainScope& scope) {
   PlainComparison result;
   result.is_complete = true;
-  const Assumptions of_old = Names(new_catalog, old_catalog).assumptions(assumptions);
-  const Assumptions of_new = Names(old_catalog, new_catalog).assumptions(of_old);
-  for (const Groups& groups : join_groups(old_catalog, new_catalog)) {
-    PairSearch search(old_catalog, new_catalog, groups, of_old, of_new, differences);
+  const Names to_new(old_catalog, new_catalog, scope.renames);
+  const Names to_old(new_catalog, old_catalog,
+                     {inverse(scope.renames.tasks), inverse(scope.renames.behaviors),
+                      inverse(scope.renames.variables)});
+  const CommonWords old_words(old_catalog, new_catalog, to_new, &to_new);
+  const CommonWords new_words(new_catalog, new_catalog, to_old, nullptr);
+  const QuietCatalog quiet_old(old_catalog, to_new);
+  const QuietCatalog quiet_new(new_catalog, to_old);
+  const Assumptions of_old = to_old.assumptions(assumptions);
+  const Assumptions of_new = to_new.assumptions(of_old);
+  for (const Groups& groups : join_groups(old_catalog, new_catalog, old_words, new_words)) {
+    PairSearch search(quiet_old.catalog, quiet_new.catalog, groups, of_old, of_new, to_old, to_new,
+                      old_words, new_words, scope);
     if (!search.run(max_states, result)) result.is_complete = false;
     if (result.has_error) return result;
   }

@@ -275,4 +275,23 @@ std::vector<Parameter> parameters_of(const CompiledCatalog& catalog, std::uint32
   return parameters;
 }
 
+std::string spell_value(std::string_view value) {
+  const bool is_clear = !value.empty() && value.find_first_of(",[]'") == std::string::npos;
+  if (is_clear) return std::string(value);
+  std::string text = "'";
+  for (const char character : value) text += character == '\'' ? "''" : std::string(1, character);
+  return text += '\'';
+}
+
+std::string describe_allowed(Parameter parameter) {
+  std::vector<std::string>& values = parameter.allowed_values;
+  if (values.empty()) return {};
+  if (!range_of(parameter)) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+  }
+  const std::string text = join(values, ", ", spell_value);
+  return parameter.allowed_is_list ? "[" + text + "]" : text;
+}
+
 }  // namespace cbc

@@ -75,4 +75,11 @@ class AllowedValues {
 [[nodiscard]] std::vector<Parameter> parameters_of(const CompiledCatalog& catalog,
                                                    std::uint32_t task);
 
+/// A value in quotes if it could be taken for several values, or for none.
+[[nodiscard]] std::string spell_value(std::string_view value);
+
+/// What a parameter may be set to, "[0, 30]"; the same for the same words in another order, and
+/// empty if anything is allowed.
+[[nodiscard]] std::string describe_allowed(Parameter parameter);
+
 }  // namespace cbc

@@ -186,27 +186,6 @@ AttributeValue unless_zero(Number number) {
   return number == 0 ? AttributeValue() : AttributeValue(number);
 }
 
-/// Puts a value in quotes that could be taken for several values, or for none.
-std::string spell(std::string_view value) {
-  const bool is_clear = !value.empty() && value.find_first_of(",[]'") == std::string::npos;
-  if (is_clear) return std::string(value);
-  std::string text = "'";
-  for (const char character : value) text += character == '\'' ? "''" : std::string(1, character);
-  return text += '\'';
-}
-
-/// What a parameter may be set to. Words are a set; no values allow any.
-std::string describe(Parameter parameter) {
-  std::vector<std::string>& values = parameter.allowed_values;
-  if (values.empty()) return {};
-  if (!range_of(parameter)) {
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-  }
-  const std::string text = join(values, ", ", spell);
-  return parameter.allowed_is_list ? "[" + text + "]" : text;
-}
-
 Attributes attributes_of_task(const CompiledCatalog& catalog, std::uint32_t index) {
   const CompiledTask& task = catalog.tasks[catalog.task_ids[index]];
   Attributes attributes{
@@ -217,7 +196,7 @@ Attributes attributes_of_task(const CompiledCatalog& catalog, std::uint32_t inde
       {"timeout", unless_zero(task.timeout)}};
   for (Parameter& parameter : parameters_of(catalog, index)) {
     std::string name = "parameter " + parameter.name;
-    attributes.push_back({std::move(name), describe(std::move(parameter))});
+    attributes.push_back({std::move(name), describe_allowed(std::move(parameter))});
   }
   std::sort(attributes.begin(), attributes.end(),
             [](const Attribute& a, const Attribute& b) { return a.name < b.name; });
@@ -226,7 +205,7 @@ Attributes attributes_of_task(const CompiledCatalog& catalog, std::uint32_t inde
 
 /// "[far, near]"
 std::string list_values(const std::vector<std::string_view>& values) {
-  return "[" + join(values, ", ", spell) + "]";
+  return "[" + join(values, ", ", spell_value) + "]";
 }
 
 /// Values of a situation variable, whose order does not count; they are shown in catalog order.

@@ -72,6 +72,8 @@ class Stepper {
   }
   /// Writes the state after the move.
   void pack(std::uint32_t* packed) const { model_.pack(now_.cells.data(), packed); }
+  /// The cells of the state after the move.
+  [[nodiscard]] const std::uint16_t* cells_after() const { return now_.cells.data(); }
 
   /// Whether a start of the task in the loaded state would be accepted. `ranks`: priorities whose
   /// rank is below it are at most that of the start (Model::ranks_up_to).

@@ -269,7 +269,6 @@ Witness make_witness(const CompiledCatalog& catalog, const std::vector<GroupId>&
   Witness witness;
   Script& script = witness.script;
   script = begin_script(catalog, assumptions, schedule);
-  std::vector<std::string> comments;
   std::string due;
   for (std::size_t place = 0; place < moves.size(); ++place) {
     const Microseconds time = schedule.times[place + 1];
@@ -279,13 +278,13 @@ Witness make_witness(const CompiledCatalog& catalog, const std::vector<GroupId>&
     }
     Step& step = script.steps.emplace_back(step_of(moves[place]));
     step.time = time;
-    comments.push_back(std::exchange(due, {}));
+    witness.comments.push_back(std::exchange(due, {}));
   }
   Step& end = script.steps.emplace_back();
   end.time = schedule.times.back();
   end.expect = expectation_of(model, stepper, property);
-  comments.push_back(std::exchange(due, {}));
-  witness.text = write_script(catalog, script, comment, comments);
+  witness.comments.push_back(std::exchange(due, {}));
+  witness.text = write_script(catalog, script, comment, witness.comments);
   return witness;
 }
 

@@ -15,7 +15,8 @@ namespace cbc {
 /// which state the path ends.
 struct Witness {
   Script script;
-  std::string text;  ///< of the script, with comments
+  std::vector<std::string> comments;  ///< by step: lines before it
+  std::string text;                   ///< of the script, with comments
 };
 
 /// The move as a step of a script. Not for Move::Kind::due, which the clock makes.

@@ -1,6 +1,10 @@
 // The formats of a verification, those for continuous integration, and the page.
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -44,6 +48,105 @@ TestCase case_of(const VerifyResult& result, const VerifyPart& part,
   return test;
 }
 
+/// Groups without properties: whether everything was explored.
+TestCase case_of(const VerifyResult& result, const Exploration& exploration) {
+  TestCase test{fmt::format("explored: {}", join(exploration.groups, ", ", [](GroupId group) {
+                              return fmt::format("group {}", std::uint32_t{group});
+                            }))};
+  if (exploration.complete) return test;
+  test.status = TestCase::Status::error;
+  test.type = "limit";
+  test.message = describe_limit(result, exploration);
+  test.annotations.push_back({Severity::error, {}, "cbc exploration incomplete", test.message});
+  return test;
+}
+
+/// Something of two catalogs that should be alike, and how they differ in it.
+TestCase comparison_case(std::string name, const std::vector<std::string>& lines) {
+  TestCase test{std::move(name)};
+  if (lines.empty()) return test;
+  test.status = TestCase::Status::failed;
+  test.type = "difference";
+  test.message = lines.front();
+  if (lines.size() > 1) test.message += fmt::format(" (and {} more)", lines.size() - 1);
+  test.details = join(lines, "\n") + "\n";
+  return test;
+}
+
+/// "LAND and 2 other tasks"
+std::string name_of_groups(const GroupComparison& groups) {
+  const std::string first = printable(groups.tasks.front());
+  const std::size_t others = groups.tasks.size() - 1;
+  return others == 0 ? first : fmt::format("{} and {}", first, quantity(others, "other task"));
+}
+
+constexpr std::string_view nothing_compared = "no start, stop or finish comes in both";
+
+/// The events of groups of both catalogs. `differences`: those of the groups.
+TestCase case_of(const VerifyResult& result, const GroupComparison& groups,
+                 std::span<const ReportedDifference> differences) {
+  const auto lines_of = [](const ReportedDifference& reported) {
+    std::vector<std::string> lines;
+    for (const TaskDifference& task : reported.difference->tasks) lines.push_back(task.line);
+    return lines;
+  };
+  std::vector<std::string> all_lines;
+  for (const ReportedDifference& reported : differences) {
+    for (std::string& line : lines_of(reported)) all_lines.push_back(std::move(line));
+  }
+  TestCase test = comparison_case("events of " + name_of_groups(groups), all_lines);
+  for (const ReportedDifference& reported : differences) {
+    const std::string& script = reported.difference->witness.text;
+    test.details += "\n" + script;
+    test.annotations.push_back({Severity::error,
+                                {},
+                                "cbc decided differently",
+                                join(lines_of(reported), "\n") + "\n" + script});
+  }
+  if (!differences.empty()) return test;
+  if (groups.end) {
+    test.status = TestCase::Status::error;
+    test.type = "limit";
+    test.message = "undecided: " + describe_comparison_end(result, *groups.end);
+    test.annotations.push_back({Severity::error, {}, "cbc comparison undecided", test.message});
+  } else if (!groups.is_compared) {
+    test.status = TestCase::Status::skipped;
+    test.message = nothing_compared;
+  }
+  return test;
+}
+
+TestSuite suite_of_comparison(const VerifyResult& result) {
+  const ReportedComparison& reported = *result.same_as;
+  TestSuite suite{std::string(result.catalog->file), std::string(reported.old_catalog->file)};
+  const CatalogComparison& comparison = reported.comparison;
+  const auto add_direct = [&](std::string name, bool is_of_names) {
+    std::vector<std::string> lines;
+    for (const DirectDifference& difference : comparison.direct) {
+      const bool is_name = difference.kind <= DirectDifference::Kind::value;
+      if (is_name == is_of_names) lines.push_back(difference.line);
+    }
+    TestCase& test = suite.cases.emplace_back(comparison_case(std::move(name), lines));
+    for (std::string& line : lines) {
+      test.annotations.push_back({Severity::error, {}, "cbc catalogs differ", std::move(line)});
+    }
+  };
+  add_direct("tasks, behaviors and variables", true);
+  add_direct("timeouts, goals and parameters", false);
+  std::size_t first = 0;
+  for (const GroupComparison& groups : comparison.groups) {
+    suite.cases.push_back(case_of(
+        result, groups, std::span(reported.differences).subspan(first, groups.differences.size())));
+    first += groups.differences.size();
+  }
+  if (!comparison.is_compared && !comparison.end) {
+    TestCase& test = suite.cases.emplace_back(
+        comparison_case("something was compared", {std::string(nothing_compared)}));
+    test.annotations.push_back({Severity::error, {}, "cbc nothing was compared", test.message});
+  }
+  return suite;
+}
+
 template <const TestFormat& format>
 std::string write_tests(const VerifyResult& result, const Style& /*style*/) {
   std::vector<TestSuite> suites;
@@ -52,7 +155,12 @@ std::string write_tests(const VerifyResult& result, const Style& /*style*/) {
     for (const ReportedAnswer& answer : part.answers) {
       suites.back().cases.push_back(case_of(result, part, answer));
     }
+    if (!part.is_about_groups()) continue;
+    for (const Exploration& exploration : part.verification.explorations) {
+      suites.back().cases.push_back(case_of(result, exploration));
+    }
   }
+  if (result.same_as) suites.push_back(suite_of_comparison(result));
   return tests_to_text(format, command, suites);
 }
 

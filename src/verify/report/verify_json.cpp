@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -183,41 +184,162 @@ constexpr auto property =
        "then": {"properties": {"conflict": {"type": "array", "minItems": 1}}},
        "else": {"properties": {"conflict": {"type": "array", "maxItems": 0}}}}])");
 
-constexpr auto compared = [](const ReportedComparison& of) -> const auto& { return of.comparison; };
+/// Of a reported difference: the text of its script, or its path; in the names of the old catalog
+/// null if they are the same.
+constexpr auto script_of = [](const ReportedDifference& of) {
+  return of.script_path ? &*of.script_path : &of.difference->witness.text;
+};
+constexpr auto old_script_of = [](const ReportedDifference& of) -> const std::string* {
+  if (of.old_script_path) return &*of.old_script_path;
+  return of.difference->old_text ? &*of.difference->old_text : nullptr;
+};
+constexpr std::string_view meaning_of_old_script =
+    "The same events in the names of the other catalog, only if --renamed says that these differ.";
 
-constexpr auto comparison =
-    object("comparison", "",
-           member("old", text, "The other catalog, as given.",
-                  [](const ReportedComparison& of) { return of.old_catalog->file; }),
-           member("result", result_word, "proved: every reachable event is decided alike.",
-                  [](const ReportedComparison& of) { return compared(of).result; }),
-           member("states", count, "Number of pairs of states that were found.",
-                  [](const ReportedComparison& of) { return compared(of).states; }),
-           script(
+constexpr auto task_difference = object(
+    "task_difference", "",
+    member("task", text, "Its name, in this catalog if it has the task.", &TaskDifference::task),
+    member("aspect", words(TaskDifference::Aspect::queue),
+           "outcome: of the event. running: the task runs in one of them only, or with another "
+           "behavior. event, change, stop: something happens on the way in one of them only, or in "
+           "another order. queue: it is about to start, or waits, in one of them only.",
+           &TaskDifference::aspect),
+    member("message", text, "What differs, on one line.", &TaskDifference::line));
+
+constexpr auto event_difference =
+    object("event_difference", "",
+           member("length", integer(1), "The number of moves of `script`.",
+                  [](const ReportedDifference& of) { return of.difference->moves.size(); }),
+           member(
+               "script", any_text,
                "A shortest event script whose last event is decided differently: its text, or with "
                "--scripts its path.",
-               [](const ReportedComparison& of) {
-                 return compared(of).witness ? std::optional(compared(of).moves.size())
-                                             : std::nullopt;
-               },
-               [](const ReportedComparison& of) {
-                 if (!compared(of).witness) return static_cast<const std::string*>(nullptr);
-                 return of.script_path ? &*of.script_path : &compared(of).witness->text;
-               }),
+               [](const ReportedDifference& of) -> const auto& { return *script_of(of); }),
+           optional("old_script", any_text, meaning_of_old_script, old_script_of),
            member(
-               "only_old", names, "What only the other catalog has, in words.",
-               [](const ReportedComparison& of) -> const auto& {
-                 return compared(of).names.only_old;
-               }),
-           member(
-               "only_new", names, "What only this catalog has, in words.",
-               [](const ReportedComparison& of) -> const auto& {
-                 return compared(of).names.only_new;
+               "tasks", list(task_difference).at_least(1),
+               "The tasks about which this is the first difference, in catalog order.",
+               [](const ReportedDifference& of) -> const auto& { return of.difference->tasks; }));
+
+/// Groups that were compared, and where their differences are.
+struct Compared {
+  const ReportedComparison& of;
+  const GroupComparison& groups;
+  std::size_t first_difference = 0;  ///< in ReportedComparison::differences
+};
+
+constexpr auto compared_groups = object(
+    "compared_groups", "",
+    member(
+        "groups", list(count).unique(), "Of this catalog.",
+        [](const Compared& of) -> const auto& { return of.groups.new_groups; }),
+    member(
+        "old_groups", list(count).unique(), "Of the other catalog.",
+        [](const Compared& of) -> const auto& { return of.groups.old_groups; }),
+    member(
+        "tasks", texts, "Their tasks.",
+        [](const Compared& of) -> const auto& { return of.groups.tasks; }),
+    member("result", result_word, "proved: every reachable event is decided alike.",
+           [](const Compared& of) { return of.groups.result; }),
+    member("compared", boolean, "Whether a start, stop or finish was made in both catalogs.",
+           [](const Compared& of) { return of.groups.is_compared; }),
+    member("complete", boolean, "false: a limit ended the exploration.",
+           [](const Compared& of) { return !of.groups.end; }),
+    member("states", count, "Number of pairs of states that were found.",
+           [](const Compared& of) { return of.groups.states; }),
+    member("transitions", count, "Number of moves that were made in them.",
+           [](const Compared& of) { return of.groups.transitions; }),
+    member("depth", count, "As in `groups`.", [](const Compared& of) { return of.groups.depth; }),
+    member("differences", list(event_difference).on_lines(),
+           "Shortest ones, for each task that is decided differently.", [](const Compared& of) {
+             return [of](const auto& put) {
+               for (std::size_t place = 0; place < of.groups.differences.size(); ++place) {
+                 put(of.of.differences[of.first_difference + place]);
+               }
+             };
+           }));
+
+constexpr auto direct_difference = object(
+    "direct_difference", "",
+    member("kind", words(DirectDifference::Kind::parameter),
+           "task: it can be requested in one of them only. behavior: it can be active in one of "
+           "them only. variable, value: a behavior depends on it in one of them only. Otherwise "
+           "what of a task or behavior differs.",
+           &DirectDifference::kind),
+    member("message", text, "What differs, on one line.", &DirectDifference::line));
+
+constexpr auto compared = [](const ReportedComparison& of) -> const auto& { return of.comparison; };
+
+/// The first of all differences; null: none.
+constexpr auto first_of = [](const ReportedComparison& of) -> const ReportedDifference* {
+  const EventDifference* const first = of.comparison.first_difference();
+  const auto found =
+      std::find_if(of.differences.begin(), of.differences.end(),
+                   [&](const ReportedDifference& one) { return one.difference == first; });
+  return found == of.differences.end() ? nullptr : &*found;
+};
+
+constexpr auto comparison =
+    object(
+        "comparison", "",
+        member("old", text, "The other catalog, as given.",
+               [](const ReportedComparison& of) { return of.old_catalog->file; }),
+        member("result", result_word,
+               "proved: every reachable event is decided alike, and nothing else differs. "
+               "undecided also if nothing was compared.",
+               [](const ReportedComparison& of) { return compared(of).result; }),
+        member("states", count, "Number of pairs of states that were found.",
+               [](const ReportedComparison& of) { return compared(of).states; }),
+        script(
+            "A shortest event script whose last event is decided differently: its text, or with "
+            "--scripts its path.",
+            [](const ReportedComparison& of) {
+              const ReportedDifference* const first = first_of(of);
+              return first != nullptr ? std::optional(first->difference->moves.size())
+                                      : std::nullopt;
+            },
+            [](const ReportedComparison& of) {
+              const ReportedDifference* const first = first_of(of);
+              return first != nullptr ? script_of(*first) : nullptr;
+            }),
+        member(
+            "only_old", names, "What only the other catalog has, in words.",
+            [](const ReportedComparison& of) -> const auto& {
+              return compared(of).names.only_old;
+            }),
+        member(
+            "only_new", names, "What only this catalog has, in words.",
+            [](const ReportedComparison& of) -> const auto& {
+              return compared(of).names.only_new;
+            }),
+        member(
+            "renamed", names, "What is the same by --renamed, in words.",
+            [](const ReportedComparison& of) -> const auto& { return compared(of).names.renamed; }),
+        member("compared", boolean, "Whether a start, stop or finish was made in both catalogs.",
+               [](const ReportedComparison& of) { return compared(of).is_compared; }),
+        member(
+            "direct", list(direct_difference).on_lines(), "What differs whatever happens.",
+            [](const ReportedComparison& of) -> const auto& { return compared(of).direct; }),
+        member("groups", list(compared_groups).on_lines(),
+               "The explorations: groups of both catalogs that have names in common.",
+               [](const ReportedComparison& of) {
+                 return [&of](const auto& put) {
+                   std::size_t first = 0;
+                   for (const GroupComparison& groups : compared(of).groups) {
+                     put(Compared{of, groups, first});
+                     first += groups.differences.size();
+                   }
+                 };
                }))
         .related(R"([
-      {"if": {"properties": {"result": {"const": "violated"}}},
-       "then": {"properties": {"length": {"type": "integer"}, "script": {"type": "string"}}},
-       "else": {"properties": {"length": {"type": "null"}, "script": {"type": "null"}}}}])");
+      {"$comment": "A script, or a difference that no script shows.",
+       "if": {"properties": {"result": {"const": "violated"}}},
+       "then": {"anyOf": [
+         {"properties": {"length": {"type": "integer"}, "script": {"type": "string"}}},
+         {"properties": {"length": {"type": "null"}, "script": {"type": "null"},
+                         "direct": {"type": "array", "minItems": 1}}}]},
+       "else": {"properties": {"length": {"type": "null"}, "script": {"type": "null"},
+                               "direct": {"type": "array", "maxItems": 0}}}}])");
 
 constexpr auto cut_sets = object(
     "cut_sets", "", member("task", task, "", &TaskCutSets::task),

@@ -28,13 +28,17 @@ class ReplayListener final : public RunListener {
  public:
   /// `property`: that the script is about, or null.
   ReplayListener(const CompiledCatalog& catalog, const Script& script, const Property* property,
-                 const Style& style)
-      : catalog_(catalog), property_(property), text_(style, memory_.stream()) {
+                 const Style& style, Microseconds last_move)
+      : catalog_(catalog),
+        property_(property),
+        last_move_(last_move),
+        text_(style, memory_.stream()) {
     text_.begin_run(catalog, script);
     explanation_.begin_run(catalog);
   }
 
   void on_event(const EventRecord& record, const Step* step, const State& state) override {
+    if (record.time >= last_move_) begin_last_move();
     text_.on_event(record, step, state);
     explanation_.add(record, step, state);
     if (record.origin != Origin::script || record.verb != Verb::start) return;
@@ -46,22 +50,31 @@ class ReplayListener final : public RunListener {
   }
   void on_failure(const Failure& failure) override { text_.on_failure(failure); }
   void on_end(const State& state) override {
+    begin_last_move();
     text_.on_end(state);
     if (property_ != nullptr)
       explanation_lines_ = explanation_.tell(demand_of(catalog_, *property_));
   }
 
   Replay take(RunResult result) && {
+    begin_last_move();
     std::string text(memory_.text());
     // The report says which script this is.
-    text.erase(0, text.find("\n\n") + 2);
-    return {std::move(result), std::move(text), std::move(conflict_),
+    const std::size_t title = text.find("\n\n") + 2;
+    text.erase(0, title);
+    return {std::move(result), std::move(text), *last_move_begin_ - title, std::move(conflict_),
             std::move(explanation_lines_)};
   }
 
  private:
+  void begin_last_move() {
+    if (!last_move_begin_) last_move_begin_ = memory_.size();
+  }
+
   const CompiledCatalog& catalog_;
   const Property* const property_;
+  const Microseconds last_move_;
+  std::optional<std::size_t> last_move_begin_;
   MemoryFile memory_;
   TextReport text_;
   FailureExplanation explanation_;
@@ -72,10 +85,10 @@ class ReplayListener final : public RunListener {
 }  // namespace
 
 Replay replay(const CompiledCatalog& catalog, const Script& script, const Property* property,
-              const Style& style) {
+              const Style& style, Microseconds last_move) {
   CoordinatorOptions options;
   options.explain.displaced = true;
-  ReplayListener listener(catalog, script, property, style);
+  ReplayListener listener(catalog, script, property, style, last_move);
   RunResult result = run_script(catalog, script, options, listener);
   return std::move(listener).take(std::move(result));
 }

@@ -25,15 +25,18 @@ namespace cbc {
 /// A counterexample or witness, run as `cbc solve` runs scripts.
 struct Replay {
   RunResult result;
-  std::string text;      ///< event by event, as in the text of `cbc solve`
-  std::string conflict;  ///< why the last scripted start was rejected, as in cbc.solve/1
+  std::string text;           ///< event by event, as in the text of `cbc solve`
+  std::size_t last_move = 0;  ///< where in it the last move begins
+  std::string conflict;       ///< why the last scripted start was rejected, as in cbc.solve/1
   /// What led to the end, in sentences.
   std::vector<std::string> explanation;
 };
 
-/// Runs a script. `property`: of which it is the counterexample or witness, or null.
+/// Runs a script. `property`: of which it is the counterexample or witness, or null. `last_move`:
+/// the time of the last move.
 [[nodiscard]] Replay replay(const CompiledCatalog& catalog, const Script& script,
-                            const Property* property, const Style& style);
+                            const Property* property, const Style& style,
+                            Microseconds last_move = 0);
 
 /// What was found out about a property, and its script.
 struct ReportedAnswer {
@@ -59,13 +62,21 @@ struct TaskCutSets {
   CutSets found;
 };
 
-/// How a catalog differs from an older one, and the script of the difference, run on both.
+/// An event that two catalogs decide differently, and its script, run on both.
+struct ReportedDifference {
+  const EventDifference* difference = nullptr;
+  Replay with_old;
+  Replay with_new;
+  std::optional<std::string> script_path;      ///< of the file that has it
+  std::optional<std::string> old_script_path;  ///< see EventDifference::old_text
+};
+
+/// How a catalog differs from an older one.
 struct ReportedComparison {
   std::shared_ptr<const CompiledCatalog> old_catalog;
+  Assumptions assumptions;  ///< about the new catalog
   CatalogComparison comparison;
-  std::optional<Replay> with_old;
-  std::optional<Replay> with_new;
-  std::optional<std::string> script_path;  ///< of the file that has it
+  std::vector<ReportedDifference> differences;  ///< group by group
 };
 
 /// All that a call of `cbc verify` found out.
@@ -99,6 +110,9 @@ struct VerifyResult {
 [[nodiscard]] std::string describe_answer(const VerifyResult& result, const VerifyPart& part,
                                           const Answer& answer);
 
+/// What ended a comparison.
+[[nodiscard]] std::string describe_comparison_end(const VerifyResult& result, ExplorationEnd end);
+
 /// The result for people.
 [[nodiscard]] std::string verify_to_text(const VerifyResult& result, const Style& style);
 
@@ -112,7 +126,7 @@ struct VerifyResult {
 struct VerifyFormat {
   std::string_view name;
   std::string (*write)(const VerifyResult& result, const Style& style);
-  bool needs_properties = false;  ///< it has no place for anything else
+  bool needs_tests = false;  ///< properties or a comparison; it has no place for anything else
   /// Writes why there is no result, in place of a report. Null: nothing is written then.
   std::string (*report_unreadable)(const std::vector<Diagnostic>& findings) = nullptr;
 };

@@ -105,6 +105,10 @@ std::string describe_limit(const VerifyResult& result, const Exploration& explor
                      has_higher_limit(end) ? " (a higher limit goes on)" : "", counts);
 }
 
+std::string describe_comparison_end(const VerifyResult& result, ExplorationEnd end) {
+  return describe_exploration_end(end, result.limits);
+}
+
 std::string describe_answer(const VerifyResult& result, const VerifyPart& part,
                             const Answer& answer) {
   const Exploration& exploration = part.verification.explorations[answer.exploration];
@@ -400,6 +404,72 @@ void add_cut_sets(const CompiledCatalog& catalog, const TaskCutSets& of_task, Te
                                        quantity(size, "behavior")));
 }
 
+/// What was found out about the events of two catalogs.
+void add_compared_events(const VerifyResult& result, Text& text) {
+  const ReportedComparison& reported = *result.same_as;
+  const CatalogComparison& comparison = reported.comparison;
+  const Style& style = text.style();
+  const std::string counts =
+      fmt::format("{} of states, {} transitions, depth {}", quantity(comparison.states, "pair"),
+                  comparison.transitions, comparison.depth);
+  const auto add = [&](std::string_view color, std::string_view words, const std::string& more) {
+    text.add("  " + style.paint(color, words) + more + "\n");
+  };
+  if (comparison.explored == Verdict::Result::violated) {
+    std::vector<std::string> tasks;
+    for (const ReportedDifference& each : reported.differences) {
+      for (const TaskDifference& task : each.difference->tasks) {
+        tasks.push_back(printable(task.task));
+      }
+    }
+    const Table table(style, {{{}, {}, 20}, {}},
+                      {.columns = text_width, .breaks = Breaks::after_commas});
+    text.add(table.line({{"decided differently", style.bad}, join(tasks, ", ")}));
+    if (comparison.end) {
+      add(style.warning, "incomplete",
+          ": " + describe_comparison_end(result, *comparison.end) +
+              "; there may be further differences");
+    }
+    return;
+  }
+  if (comparison.explored == Verdict::Result::undecided) {
+    return add(style.warning, "undecided",
+               fmt::format(": {}; no difference in {}",
+                           describe_comparison_end(result, *comparison.end), counts));
+  }
+  if (!comparison.is_compared) {
+    return add(style.bad, "nothing was compared", ": no start, stop or finish comes in both");
+  }
+  add(style.good,
+      comparison.direct.empty() ? "every reachable event is decided alike"
+                                : "the events of both are decided alike",
+      ": " + counts);
+}
+
+/// What differs, then the events before it, and the last one with either catalog.
+void add_difference(const VerifyResult& result, const ReportedDifference& reported, Text& text) {
+  const EventDifference& difference = *reported.difference;
+  text.line("");
+  for (const TaskDifference& task : difference.tasks) {
+    text.painted(text.style().strong, task.line);
+  }
+  std::string scripts;
+  if (reported.script_path) scripts += "; see " + printable(*reported.script_path);
+  if (reported.old_script_path) scripts += " and " + printable(*reported.old_script_path);
+  text.line("the last of {}{}", quantity(difference.moves.size(), "event"), scripts);
+  const Replay& with_new = reported.with_new;
+  const Replay& with_old = reported.with_old;
+  const std::string_view new_end = std::string_view(with_new.text).substr(with_new.last_move);
+  const std::string_view old_end = std::string_view(with_old.text).substr(with_old.last_move);
+  if (new_end == old_end) return text.add("\n" + with_new.text);
+  const bool has_events_before = difference.moves.size() > 1;
+  if (has_events_before) text.add("\n" + with_new.text.substr(0, with_new.last_move));
+  text.title("with " + printable(result.same_as->old_catalog->file));
+  text.add(fmt::format("\n{}", has_events_before ? old_end : std::string_view(with_old.text)));
+  text.title("with " + printable(result.catalog->file));
+  text.add(fmt::format("\n{}", has_events_before ? new_end : std::string_view(with_new.text)));
+}
+
 /// How the catalog compares with an older one.
 void add_comparison(const VerifyResult& result, Text& text) {
   const ReportedComparison& reported = *result.same_as;
@@ -410,39 +480,28 @@ void add_comparison(const VerifyResult& result, Text& text) {
   const std::string title = style.paint(style.strong, new_name + " against " + old_name);
   text.add((text.is_empty() ? "" : "\n") + title + "\n");
   if (result.parts.empty()) {
-    const CompiledCatalog& catalog = *result.catalog;
-    text.add(
-        assumptions_to_text(catalog, {common_assumptions(*reported.old_catalog, catalog), {}}));
+    text.add(assumptions_to_text(*result.catalog, {reported.assumptions, {}}));
   }
-  const auto add_names = [&](const std::string& file, const std::vector<std::string>& names) {
-    const Table table(style, {{{}, {}, width_of(file) + 9}, {}},
+  const auto add_names = [&](const std::string& label, const std::vector<std::string>& names) {
+    const Table table(style, {{{}, {}, width_of(label)}, {}},
                       {.columns = text_width, .breaks = Breaks::after_commas});
-    if (!names.empty()) text.add(table.line({"only " + file + " has", join(names, ", ")}));
+    if (!names.empty()) text.add(table.line({label, join(names, ", ")}));
   };
-  add_names(old_name, comparison.names.only_old);
-  add_names(new_name, comparison.names.only_new);
-  const std::string counts =
-      fmt::format("{} of states, {} transitions, depth {}", quantity(comparison.states, "pair"),
-                  comparison.transitions, comparison.depth);
-  const auto add_result = [&](std::string_view words, const std::string& more) {
-    text.line("  " + style.paint(color_of(comparison.result, style), words) + more);
-  };
-  switch (comparison.result) {
-    case Verdict::Result::proved:
-      return add_result("every reachable event is decided alike", ": " + counts);
-    case Verdict::Result::undecided:
-      return add_result(
-          "undecided",
-          fmt::format(": {}; no difference in {}",
-                      describe_exploration_end(*comparison.end, result.limits), counts));
-    case Verdict::Result::violated:
-      add_result("decided differently",
-                 ": the last of " + quantity(comparison.moves.size(), "event"));
+  add_names("renamed", comparison.names.renamed);
+  add_names("only " + old_name + " has", comparison.names.only_old);
+  add_names("only " + new_name + " has", comparison.names.only_new);
+  bool is_any_missing = false;
+  for (const DirectDifference& difference : comparison.direct) {
+    text.line("  {} {}", style.paint(style.bad, "different:"), difference.line);
+    is_any_missing = is_any_missing || difference.kind <= DirectDifference::Kind::value;
   }
-  text.title("with " + old_name);
-  text.add("\n" + reported.with_old->text);
-  text.title("with " + new_name);
-  text.add("\n" + reported.with_new->text);
+  if (is_any_missing) {
+    text.line("  (--renamed OLD=NEW pairs two names, --allow-missing ignores what only one has)");
+  }
+  add_compared_events(result, text);
+  for (const ReportedDifference& difference : reported.differences) {
+    add_difference(result, difference, text);
+  }
 }
 
 void add_totals(const VerifyResult& result, Text& text) {

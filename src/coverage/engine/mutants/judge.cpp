@@ -304,7 +304,7 @@ void MutantJudge::compare(const Mutant& mutant, const CompiledCatalog& changed,
                                                              : MutantVerdict::Result::undecided;
     return;
   }
-  Script script = found.witness->script;
+  Script script = found.first_difference()->witness.script;
   const Microseconds end = take_expectation(script);
   const std::array times = {end, settled(script, end)};
   verdict.script = find_distinguishing_script(catalog_, changed, script, times);

@@ -1,0 +1,348 @@
+#include "verify/engine/same_as_names.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/support/wording.h"
+#include "runtime/base/text.h"
+#include "runtime/coordinator/record.h"
+
+namespace cbc {
+
+namespace {
+
+constexpr auto task_called = [](const CompiledCatalog& catalog, std::string_view name) {
+  const auto place = catalog.find_task(name);
+  return place ? std::optional(catalog.task_ids[*place]) : std::nullopt;
+};
+constexpr auto behavior_called = [](const CompiledCatalog& catalog, std::string_view name) {
+  const auto place = catalog.find_behavior(name);
+  return place ? std::optional(catalog.behavior_ids[*place]) : std::nullopt;
+};
+constexpr auto variable_called = [](const CompiledCatalog& catalog, std::string_view name) {
+  return catalog.find_variable(name);
+};
+
+// Renames.
+
+template <typename Number>
+using Pairs = std::vector<std::pair<Number, Number>>;
+
+/// "a task and a behavior": what a catalog has under a name; empty if it has nothing.
+std::string kinds_of(const CompiledCatalog& catalog, std::string_view name) {
+  std::vector<std::string> kinds;
+  if (task_called(catalog, name)) kinds.emplace_back("a task");
+  if (behavior_called(catalog, name)) kinds.emplace_back("a behavior");
+  if (variable_called(catalog, name)) kinds.emplace_back("a situation variable");
+  return list_with_and(kinds);
+}
+
+std::string describe_unknown(const CompiledCatalog& catalog, std::string_view name) {
+  std::vector<std::string_view> known;
+  for (const std::string_view task : catalog.task_names) known.push_back(task);
+  for (const std::string_view behavior : catalog.behavior_names) known.push_back(behavior);
+  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+    known.push_back(catalog.name_of_variable(variable));
+  }
+  return fmt::format("catalog {} has no task, behavior or situation variable {}{}",
+                     quote(catalog.file), quote(name), did_you_mean(nearest(name, known)));
+}
+
+/// Adds a pair of one kind, if both catalogs have the names in it; `name_of` names a number.
+/// Returns what is wrong, or nothing.
+template <typename Number, typename Called, typename NameOf>
+std::string add_pair(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
+                     std::string_view old_name, std::string_view new_name, Called called,
+                     NameOf name_of, Pairs<Number>& pairs) {
+  const std::optional<Number> of_old = called(old_catalog, old_name);
+  const std::optional<Number> of_new = called(new_catalog, new_name);
+  if (!of_old || !of_new) return {};
+  for (const auto& [old_before, new_before] : pairs) {
+    const std::string_view from = name_of(old_catalog, old_before);
+    const std::string_view to = name_of(new_catalog, new_before);
+    const auto refuse = [&](std::string_view name, std::string_view what) {
+      return fmt::format("{} {}: {} and {}", quote(name), what, quote(concat(from, "=", to)),
+                         quote(concat(old_name, "=", new_name)));
+    };
+    if (from == old_name) return refuse(old_name, "is renamed twice");
+    if (to == new_name) return refuse(new_name, "is the new name of two");
+    if (from == new_name) return refuse(new_name, "is both an old and a new name");
+    if (to == old_name) return refuse(old_name, "is both an old and a new name");
+  }
+  pairs.emplace_back(*of_old, *of_new);
+  return {};
+}
+
+}  // namespace
+
+std::string add_rename(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
+                       std::string_view old_name, std::string_view new_name, Renames& renames) {
+  const std::string old_kinds = kinds_of(old_catalog, old_name);
+  const std::string new_kinds = kinds_of(new_catalog, new_name);
+  if (old_kinds.empty()) return describe_unknown(old_catalog, old_name);
+  if (new_kinds.empty()) return describe_unknown(new_catalog, new_name);
+  if (old_name == new_name) {
+    return fmt::format("{} has the same name in both catalogs", quote(old_name));
+  }
+  const std::size_t before =
+      renames.tasks.size() + renames.behaviors.size() + renames.variables.size();
+  const auto add = [&](auto called, auto name_of, auto& pairs) {
+    return add_pair(old_catalog, new_catalog, old_name, new_name, called, name_of, pairs);
+  };
+  std::string fault = add(
+      task_called, [](const CompiledCatalog& in, TaskId task) { return in.name_of_task(task); },
+      renames.tasks);
+  if (fault.empty()) {
+    fault = add(
+        behavior_called,
+        [](const CompiledCatalog& in, BehaviorId behavior) {
+          return in.name_of_behavior(behavior);
+        },
+        renames.behaviors);
+  }
+  if (fault.empty()) {
+    fault = add(
+        variable_called,
+        [](const CompiledCatalog& in, std::uint32_t variable) {
+          return in.name_of_variable(variable);
+        },
+        renames.variables);
+  }
+  if (!fault.empty()) return fault;
+  if (renames.tasks.size() + renames.behaviors.size() + renames.variables.size() > before) {
+    return {};
+  }
+  return fmt::format("{} is {} of {}, {} is {} of {}", quote(old_name), old_kinds,
+                     quote(old_catalog.file), quote(new_name), new_kinds, quote(new_catalog.file));
+}
+
+// Translations.
+
+namespace {
+
+/// Both directions for the numbers of one kind: those of the pairs, and equal names of the others.
+template <typename Number, typename Called, typename NameOf>
+void translate_names(const CompiledCatalog& old_catalog, std::size_t old_count,
+                     const CompiledCatalog& new_catalog, std::size_t new_count,
+                     const Pairs<Number>& pairs, Called called, NameOf name_of,
+                     std::vector<Number>& to_new, std::vector<Number>& to_old) {
+  to_new.assign(old_count, none);
+  to_old.assign(new_count, none);
+  for (const auto& [of_old, of_new] : pairs) {
+    to_new[of_old] = of_new;
+    to_old[of_new] = of_old;
+  }
+  for (Number of_old(0); of_old < old_count; ++of_old) {
+    if (to_new[of_old] != none) continue;
+    const std::optional<Number> of_new = called(new_catalog, name_of(old_catalog, of_old));
+    if (!of_new || to_old[*of_new] != none) continue;
+    to_new[of_old] = *of_new;
+    to_old[*of_new] = of_old;
+  }
+}
+
+void translate_values(const CompiledCatalog& from, const CompiledCatalog& to,
+                      Translation& translation) {
+  for (std::uint32_t variable = 0; variable < from.variables.size(); ++variable) {
+    auto& values = translation.values.emplace_back(from.variables[variable].value_count, none);
+    const std::uint32_t known = translation.variables[variable];
+    for (std::uint32_t value = 0; known != none && value < values.size(); ++value) {
+      values[value] = to.find_value(known, from.name_of_value({variable, value})).value_or(none);
+    }
+  }
+}
+
+void list_missing(const CompiledCatalog& catalog, const Translation& translation,
+                  std::vector<std::string>& names) {
+  for (const TaskId task : catalog.task_ids) {
+    if (translation.tasks[task] == none) {
+      names.push_back(fmt::format("task {}", printable(catalog.name_of_task(task))));
+    }
+  }
+  for (const BehaviorId behavior : catalog.behavior_ids) {
+    if (translation.behaviors[behavior] == none) {
+      names.push_back(fmt::format("behavior {}", printable(catalog.name_of_behavior(behavior))));
+    }
+  }
+  for (std::uint32_t variable = 0; variable < translation.variables.size(); ++variable) {
+    const std::string name = printable(catalog.name_of_variable(variable));
+    if (translation.variables[variable] == none) {
+      names.push_back(fmt::format("variable {}", name));
+      continue;
+    }
+    for (std::uint32_t value = 0; value < translation.values[variable].size(); ++value) {
+      if (translation.values[variable][value] != none) continue;
+      names.push_back(
+          fmt::format("value {} of {}", printable(catalog.name_of_value({variable, value})), name));
+    }
+  }
+}
+
+SituationPart translate(const SituationPart& part, const Translation& to, bool& is_whole) {
+  SituationPart result;
+  for (const VariableValue& value : part.variables) {
+    const std::uint32_t variable = to.variables[value.variable];
+    const std::uint32_t translated =
+        variable == none ? none : to.values[value.variable][value.value];
+    if (translated == none) {
+      is_whole = false;
+    } else {
+      result.variables.push_back({variable, translated});
+    }
+  }
+  for (const SituationPart::Own& own : part.behaviors) {
+    if (to.behaviors[own.behavior] == none) {
+      is_whole = false;
+    } else {
+      result.behaviors.push_back({to.behaviors[own.behavior], own.available});
+    }
+  }
+  return result;
+}
+
+/// The numbers of another catalog for those of a list, without what it does not have.
+template <typename Number>
+std::vector<Number> translate(const std::vector<Number>& from, const std::vector<Number>& to) {
+  std::vector<Number> result;
+  for (const Number number : from) {
+    if (to[number] != none) result.push_back(to[number]);
+  }
+  return result;
+}
+
+Situation translate(const Situation& situation, const CompiledCatalog& from,
+                    const CompiledCatalog& to, const Translation& translation) {
+  SituationPart part{situation.variables, {}};
+  for (const Availability& entry : situation.availability) {
+    part.behaviors.push_back({from.behavior_ids[entry.behavior], entry.available});
+  }
+  bool is_whole = true;
+  part = translate(part, translation, is_whole);
+  Situation result{{}, part.variables};
+  for (const SituationPart::Own& own : part.behaviors) {
+    result.availability.push_back({to.behaviors[own.behavior].catalog_index, own.available});
+  }
+  return result;
+}
+
+}  // namespace
+
+TranslationPair::TranslationPair(const CompiledCatalog& old_catalog,
+                                 const CompiledCatalog& new_catalog, const Renames& renames) {
+  translate_names(
+      old_catalog, old_catalog.tasks.size(), new_catalog, new_catalog.tasks.size(), renames.tasks,
+      task_called, [](const CompiledCatalog& in, TaskId task) { return in.name_of_task(task); },
+      to_new.tasks, to_old.tasks);
+  translate_names(
+      old_catalog, old_catalog.behaviors.size(), new_catalog, new_catalog.behaviors.size(),
+      renames.behaviors, behavior_called,
+      [](const CompiledCatalog& in, BehaviorId behavior) { return in.name_of_behavior(behavior); },
+      to_new.behaviors, to_old.behaviors);
+  translate_names(
+      old_catalog, old_catalog.variables.size(), new_catalog, new_catalog.variables.size(),
+      renames.variables, variable_called,
+      [](const CompiledCatalog& in, std::uint32_t variable) {
+        return in.name_of_variable(variable);
+      },
+      to_new.variables, to_old.variables);
+  translate_values(old_catalog, new_catalog, to_new);
+  translate_values(new_catalog, old_catalog, to_old);
+}
+
+CatalogNames names_of(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
+                      const TranslationPair& translations, const Renames& renames) {
+  CatalogNames names;
+  list_missing(old_catalog, translations.to_new, names.only_old);
+  list_missing(new_catalog, translations.to_old, names.only_new);
+  const auto add = [&](std::string_view kind, std::string_view from, std::string_view to) {
+    names.renamed.push_back(fmt::format("{} {}: {}", kind, printable(from), printable(to)));
+  };
+  for (const auto& [from, to] : renames.tasks) {
+    add("task", old_catalog.name_of_task(from), new_catalog.name_of_task(to));
+  }
+  for (const auto& [from, to] : renames.behaviors) {
+    add("behavior", old_catalog.name_of_behavior(from), new_catalog.name_of_behavior(to));
+  }
+  for (const auto& [from, to] : renames.variables) {
+    add("variable", old_catalog.name_of_variable(from), new_catalog.name_of_variable(to));
+  }
+  return names;
+}
+
+Assumptions translate(const Assumptions& from, const Translation& to) {
+  Assumptions result = from;
+  result.start.clear();
+  for (const Assumptions::Start& start : from.start) {
+    if (to.tasks[start.task] == none) continue;
+    result.start.push_back({to.tasks[start.task], start.priorities});
+  }
+  result.stop = translate(from.stop, to.tasks);
+  result.variables = translate(from.variables, to.variables);
+  result.behaviors = translate(from.behaviors, to.behaviors);
+  result.never.clear();
+  for (const SituationPart& part : from.never) {
+    bool is_whole = true;
+    SituationPart translated = translate(part, to, is_whole);
+    if (is_whole) result.never.push_back(std::move(translated));
+  }
+  bool is_whole = true;
+  result.initially = translate(from.initially, to, is_whole);
+  return result;
+}
+
+Script translate(const Script& script, const CompiledCatalog& from, const CompiledCatalog& to,
+                 const Translation& translation) {
+  const auto task = [&](std::uint32_t index) {
+    return to.tasks[translation.tasks[from.task_ids[index]]].catalog_index;
+  };
+  const auto behavior = [&](std::uint32_t index) {
+    return to.behaviors[translation.behaviors[from.behavior_ids[index]]].catalog_index;
+  };
+  Script result = script;
+  result.situation = translate(script.situation, from, to, translation);
+  for (Step& step : result.steps) {
+    if (step.expect) {
+      for (auto& running : step.expect->running) {
+        running.task = task(running.task);
+        if (running.behavior) running.behavior = behavior(*running.behavior);
+      }
+      for (std::uint32_t& stopped : step.expect->stopped) stopped = task(stopped);
+      continue;
+    }
+    switch (form_of(step.verb).subject) {
+      case VerbForm::SubjectKind::nothing:
+        break;
+      case VerbForm::SubjectKind::task:
+        step.subject = task(step.subject);
+        break;
+      case VerbForm::SubjectKind::behavior:
+        step.subject = behavior(step.subject);
+        break;
+      case VerbForm::SubjectKind::situation:
+        step.situation = translate(step.situation, from, to, translation);
+        break;
+    }
+  }
+  return result;
+}
+
+void leave_out_missing(const CompiledCatalog& catalog, const Translation& to_other,
+                       Expectation& expectation) {
+  const auto is_missing = [&](std::uint32_t task) {
+    return to_other.tasks[catalog.task_ids[task]] == none;
+  };
+  std::erase_if(expectation.stopped, is_missing);
+  std::erase_if(expectation.running, [&](const auto& running) { return is_missing(running.task); });
+  for (auto& running : expectation.running) {
+    if (running.behavior && to_other.behaviors[catalog.behavior_ids[*running.behavior]] == none) {
+      running.behavior.reset();
+    }
+  }
+}
+
+}  // namespace cbc

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/property/properties.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "verify/engine/model.h"
+#include "verify/engine/same_as_names.h"
+
+namespace cbc {
+
+// Groups of two catalogs that are explored together, and what is the same in their models.
+
+struct GroupPair {
+  std::vector<GroupId> old_groups;
+  std::vector<GroupId> new_groups;
+};
+
+/// Joins groups that have the same task or behavior.
+[[nodiscard]] std::vector<GroupPair> join_groups(const CompiledCatalog& old_catalog,
+                                                 const CompiledCatalog& new_catalog,
+                                                 const Translation& to_old);
+
+/// The catalog without reactive starts of tasks that the other one does not have. It shares the
+/// memory of the catalog.
+[[nodiscard]] CompiledCatalog without_missing_starts(const CompiledCatalog& catalog,
+                                                     const Translation& to_other);
+
+/// The models of both catalogs, and what is the same in them. Catalogs and translations must
+/// outlive it.
+struct ModelPair {
+  ModelPair(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
+            const GroupPair& groups, const Assumptions& old_assumptions,
+            const Assumptions& new_assumptions, const TranslationPair& translations);
+
+  /// A task of the new model and the same of the old one; none: one of them does not have it.
+  using TaskPair = std::pair<std::uint32_t, std::uint32_t>;
+  [[nodiscard]] static bool is_in_both(const TaskPair& task) {
+    return task.first != none && task.second != none;
+  }
+  [[nodiscard]] bool is_same_task(std::uint32_t of_new, std::uint32_t of_old) const {
+    return pair_of_new[of_new] == pair_of_old[of_old];
+  }
+  [[nodiscard]] bool is_same_behavior(std::uint32_t of_new, std::uint32_t of_old) const {
+    return new_model.behaviors()[of_new].id ==
+           translations.to_new.behaviors[old_model.behaviors()[of_old].id];
+  }
+  /// Whether both have the behavior, and a task that it performs here.
+  [[nodiscard]] bool is_compared(std::uint32_t behavior, bool is_new) const {
+    return (is_new ? new_is_compared : old_is_compared)[behavior];
+  }
+  /// Their numbers among the reactive tasks; none: it is not one of them.
+  [[nodiscard]] TaskPair reactive_of(const TaskPair& task) const {
+    return {task.first == none ? none : new_model.tasks()[task.first].reactive,
+            task.second == none ? none : old_model.tasks()[task.second].reactive};
+  }
+
+  const TranslationPair& translations;
+  Model old_model;
+  Model new_model;
+  /// The same move in both.
+  struct PairedMove {
+    const Model::Choice* of_new = nullptr;  ///< null: the new one does not have it
+    const Model::Choice* of_old = nullptr;  ///< null: the old one does not have it
+    Move move;                              ///< as the new catalog counts
+  };
+  std::vector<PairedMove> moves;
+  /// In the order of the new catalog, then those that only the old one has, in its order.
+  std::vector<TaskPair> tasks;
+  // By task of a model: its place in `tasks`.
+  std::vector<std::uint32_t> pair_of_new;
+  std::vector<std::uint32_t> pair_of_old;
+  // By behavior of a model: see is_compared.
+  std::vector<bool> new_is_compared;
+  std::vector<bool> old_is_compared;
+
+ private:
+  /// A move, with the id of its task, behavior or variable, and its priority or value.
+  using Key = std::tuple<Move::Kind, std::uint32_t, std::int64_t>;
+
+  [[nodiscard]] static Key key_of(const Model& model, const Model::Choice& choice,
+                                  const Translation* to_other);
+  void add_tasks();
+  void add_behaviors();
+  void add_moves();
+  void add_variables_of_old();
+};
+
+}  // namespace cbc
