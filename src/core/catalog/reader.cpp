@@ -11,8 +11,7 @@
 #include <vector>
 
 #include "core/catalog/catalog.h"
-#include "core/catalog/foreign_file.h"
-#include "core/catalog/older_format.h"
+#include "core/catalog/no_catalog.h"
 #include "core/catalog/shape.h"
 #include "core/catalog/situation.h"
 #include "core/catalog/task_attributes.h"
@@ -64,28 +63,10 @@ class Reader {
         situation_(reporter) {}
 
   CatalogReading read() && {
-    const Node& root = document_.root();
-    if (root.kind == Kind::null) {
-      reporter_.report(rule::missing_key, root.range,
-                       "missing key 'behaviors': the catalog is empty");
-    } else if (const auto format = find_older_format(root)) {
-      report_older_format(*format);
+    if (report_no_catalog(document_, reporter_)) {
       lacks_a_section_ = true;
-    } else if (resembles_catalog(root)) {
-      read_sections(root);
-    } else if (const auto inner = find_inner_section(root)) {
-      report_inner_section(*inner);
-      lacks_a_section_ = true;
-    } else if (const std::string_view found = find_foreign_file(root); !found.empty()) {
-      reporter_.report(rule::wrong_type, root.range,
-                       describe_foreign_file("behavior catalog", found));
-      lacks_a_section_ = true;
-    } else if (root.kind != Kind::mapping) {
-      reporter_.report(
-          rule::wrong_type, root.range,
-          "a catalog must be a mapping with the key 'behaviors', found " + yaml::describe(root));
     } else {
-      read_sections(root);
+      read_sections(document_.root());
     }
     resolve_names();
     CatalogReading reading;
@@ -120,32 +101,6 @@ class Reader {
     const std::size_t errors = reporter_.errors();
     read();
     situation_errors_ += reporter_.errors() - errors;
-  }
-
-  void report_older_format(const OlderFormat& format) {
-    const Conversion conversion = convert_older_format(document_, {});
-    std::string message = "this is a catalog of an older format, " + std::string(format.features) +
-                          "; it is not supported";
-    std::vector<Note> notes;
-    if (conversion.obstacle) {
-      message += ", and 'cbc lint --fix' cannot convert it";
-      notes.push_back(reporter_.note(conversion.obstacle->range, conversion.obstacle->message));
-    } else if (conversion.leftovers.empty()) {
-      message += "; 'cbc lint --fix' converts it";
-    } else {
-      message += "; 'cbc lint --fix' converts it, but for what the notes say";
-    }
-    for (const Leftover& leftover : conversion.leftovers) {
-      notes.push_back(reporter_.note(leftover.range, leftover.message));
-    }
-    reporter_.report(rule::older_format, format.key->range, std::move(message), std::move(notes));
-  }
-
-  void report_inner_section(const InnerSection& inner) {
-    std::string message =
-        quote(inner.key->text) + " must be a key of the file itself, found it in ";
-    message += inner.outer == nullptr ? "a list" : quote(inner.outer->text);
-    reporter_.report(rule::missing_key, inner.key->range, std::move(message));
   }
 
   void read_sections(const Node& root) {
