@@ -213,7 +213,7 @@ constexpr auto event_difference =
                "A shortest event script whose last event is decided differently: its text, or with "
                "--scripts its path.",
                [](const ReportedDifference& of) -> const auto& { return *script_of(of); }),
-           member("old_script", nullable(any_text),
+           member("old_script", nullable(text),
                   "The same events in the names of the other catalog; null if these are the same.",
                   old_script_of),
            member(
