@@ -174,6 +174,7 @@ class Relations {
 
   void check_verify(const Json& report) {
     for (const Json& exploration : report.at("groups")) check_exploration(exploration);
+    if (!report.at("same_as").is_null()) check_comparison(report.at("same_as"));
     if (report.at("cut_sets").is_null()) return;
     for (const Json& of_task : report.at("cut_sets")) {
       std::size_t size = 0;
@@ -183,6 +184,36 @@ class Relations {
         size = set.size();
       }
     }
+  }
+
+  void check_comparison(const Json& comparison) {
+    bool differs = !comparison.at("direct").empty();
+    bool is_compared = false;
+    std::uint64_t states = 0;
+    std::set<std::string> tasks;
+    Json shortest;
+    for (const Json& groups : comparison.at("groups")) {
+      const Json& differences = groups.at("differences");
+      expect(differences.empty() == (groups.at("result") != "violated"),
+             "groups are decided differently, or not");
+      states += groups.at("states").get<std::uint64_t>();
+      is_compared = is_compared || groups.at("compared").get<bool>();
+      std::uint64_t length = 0;
+      for (const Json& difference : differences) {
+        differs = true;
+        expect(difference.at("length") >= length, "a shorter difference comes later");
+        length = difference.at("length");
+        if (shortest.is_null() || length < shortest) shortest = length;
+        for (const Json& task : difference.at("tasks")) {
+          expect(tasks.insert(task.at("task")).second, "a task differs twice");
+        }
+      }
+    }
+    expect(differs == (comparison.at("result") == "violated"), "the catalogs differ, or not");
+    expect(comparison.at("length") == shortest, "the shortest difference is another one");
+    expect(comparison.at("states") == states, "the states are not those of the groups");
+    expect(comparison.at("compared") == is_compared, "something was compared, or not");
+    expect(is_compared || comparison.at("result") != "proved", "proved without an event");
   }
 
   void check_exploration(const Json& exploration) {

@@ -193,8 +193,6 @@ constexpr auto old_script_of = [](const ReportedDifference& of) -> const std::st
   if (of.old_script_path) return &*of.old_script_path;
   return of.difference->old_text ? &*of.difference->old_text : nullptr;
 };
-constexpr std::string_view meaning_of_old_script =
-    "The same events in the names of the other catalog, only if --renamed says that these differ.";
 
 constexpr auto task_difference = object(
     "task_difference", "",
@@ -215,7 +213,9 @@ constexpr auto event_difference =
                "A shortest event script whose last event is decided differently: its text, or with "
                "--scripts its path.",
                [](const ReportedDifference& of) -> const auto& { return *script_of(of); }),
-           optional("old_script", any_text, meaning_of_old_script, old_script_of),
+           member("old_script", nullable(text),
+                  "The same events in the names of the other catalog; null if these are the same.",
+                  old_script_of),
            member(
                "tasks", list(task_difference).at_least(1),
                "The tasks about which this is the first difference, in catalog order.",
