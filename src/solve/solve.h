@@ -28,6 +28,7 @@ struct StreamOptions {
   std::optional<std::string> state_in;
   std::optional<std::string> state_out;
   std::optional<std::string> replay;
+  std::optional<std::string> to_script;
   std::string clock = "events";      ///< or "real"
   std::optional<std::string> serve;  ///< where a page shows the stream
 };
@@ -81,5 +82,7 @@ void tell_left_out(const std::string& page, std::uint64_t events);
 /// Runs the events of a recorded stream again, and compares the outputs, which are written only if
 /// the format is jsonl. The path is that of the catalog.
 [[nodiscard]] int replay_stream(const SolveOptions& options);
+/// The same, and then reports the events in the format that is wanted, and writes them as a script.
+[[nodiscard]] int replay(SolveOptions options);
 
 }  // namespace cbc::cli

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
@@ -104,14 +103,6 @@ Values page_address() {
   return values;
 }
 
-/// Compares a log, and reports its events in the format that is wanted.
-int replay(SolveOptions options) {
-  const int compared = replay_stream(options);
-  if (options.format == "jsonl" || compared == exit_unusable) return compared;
-  options.paths.push_back(*options.stream.replay);
-  return std::max(compared, solve_missions(options));
-}
-
 int solve(const SolveOptions& options) {
   if (options.paths.empty()) {
     return usage_error("solve", options.stream.replay ? "expected the catalog of the log"
@@ -162,6 +153,10 @@ void add_stream_options(Command& command, StreamOptions& options) {
       .not_with({"--replay"}, "a log is complete, so --html draws it");
   command.option("--replay", options.replay, input("LOG", ValueKind::file),
                  "Run the events of a jsonl output again, and compare");
+  command
+      .option("--to-script", options.to_script, further_output("FILE"),
+              "Write these events as a script")
+      .only_with({"--replay"});
 }
 
 }  // namespace

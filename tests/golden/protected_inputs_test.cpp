@@ -64,7 +64,7 @@ TEST_F(ProtectedInputs, AreTheSettings) {
       {"solve", "robot.yaml", "missions/mission.yaml", "--format", "jsonl", "--state-out"},
       {"sweep", "robot.yaml", "--sequences", "2", "--slowest"},
       {"coverage", "robot.yaml", "missions", "--output"},
-      {"solve", "--replay", "log.jsonl", "robot.yaml", "--state-out"},
+      {"solve", "--format", "jsonl", "--replay", "log.jsonl", "robot.yaml", "--state-out"},
       {"verify", "robot.yaml", "--output"},
       {"verify", "robot.yaml", "properties.yaml", "--output"}};
   for (const CommandLine& command : commands) expect_protected(command, ".cbc.yaml");
@@ -79,8 +79,12 @@ TEST_F(ProtectedInputs, AreFilesThatOtherFilesName) {
 }
 
 TEST_F(ProtectedInputs, AreFilesOfTheCommandLine) {
-  expect_protected({"solve", "--replay", "log.jsonl", "robot.cbc", "--state-out"}, "log.jsonl");
-  expect_protected({"solve", "--replay", "log.jsonl", "robot.cbc", "--state-out"}, "robot.cbc");
+  expect_protected(
+      {"solve", "--format", "jsonl", "--replay", "log.jsonl", "robot.cbc", "--state-out"},
+      "log.jsonl");
+  expect_protected(
+      {"solve", "--format", "jsonl", "--replay", "log.jsonl", "robot.cbc", "--state-out"},
+      "robot.cbc");
   expect_protected({"sweep", "--merge", "shard.json", "--slowest"}, "shard.json");
   expect_protected({"verify", "properties.yaml", "--html"}, "properties.yaml");
 }
@@ -109,9 +113,9 @@ TEST_F(ProtectedInputs, AreStatesThatAStreamContinues) {
   const Result log = cbc(second);
   EXPECT_EQ(log.status, 0) << log.err;
   folder.write("second.jsonl", log.out);
-  expect_protected(
-      {"solve", "--replay", "second.jsonl", "robot.cbc", "--state-in", "state.json", "--html"},
-      "state.json");
+  expect_protected({"solve", "--format", "jsonl", "--replay", "second.jsonl", "robot.cbc",
+                    "--state-in", "state.json", "--html"},
+                   "state.json");
 }
 
 TEST_F(ProtectedInputs, AreScriptsThatWouldBeReplaced) {

@@ -192,8 +192,46 @@ TEST_F(StreamTest, FollowsTheRealClockBetweenLines) {
   EXPECT_EQ(found[4]["origin"], "reactive");
   EXPECT_NEAR(found[4]["time"], start + 0.38, 1e-6);
   EXPECT_GT(found[5]["time"], start + 0.38);
-  const Result replayed = run(call({"--replay", "log", "quadrotor.yaml"}));
+  const Result replayed = run(call({"--format", "jsonl", "--replay", "log", "quadrotor.yaml"}));
   EXPECT_EQ(replayed.status, 0) << replayed.err;
+}
+
+TEST_F(StreamTest, LogsAreScripts) {
+  const std::string mission = "quadrotor.mission.yaml";
+  const std::string catalog = "quadrotor.yaml";
+  folder_.write("log.jsonl", run(call({catalog, mission, "--format", "jsonl"})).out);
+  const json of_mission = json::parse(run(call({catalog, mission, "--format", "json"})).out);
+  for (const std::vector<std::string>& asked :
+       {std::vector<std::string>{catalog, "log.jsonl"}, {"--replay", "log.jsonl", catalog}}) {
+    std::vector<std::string> arguments = asked;
+    arguments.insert(arguments.end(), {"--format", "json"});
+    const Result result = run(call(arguments));
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(json::parse(result.out)["runs"][0]["events"], of_mission["runs"][0]["events"]);
+  }
+  const Result explained =
+      run(call({"--replay", "log.jsonl", catalog, "--why", "FOLLOW_PATH", "--html", "page.html"}));
+  EXPECT_EQ(explained.status, 0) << explained.err;
+  EXPECT_NE(explained.out.find("why FOLLOW_PATH"), std::string::npos);
+  EXPECT_NE(folder_.read("page.html").find("why"), std::string::npos);
+
+  EXPECT_EQ(run(call({"--replay", "log.jsonl", catalog, "--to-script", "again.yaml"})).status, 0);
+  const Result again = run(call({catalog, "again.yaml", "--format", "jsonl"}));
+  EXPECT_EQ(again.out, folder_.read("log.jsonl"));
+}
+
+/// A log with reasons is that of the same events without.
+TEST_F(StreamTest, ReplayComparesDecisionsNotReasons) {
+  const std::string lines = "{start: FOLLOW_PATH}\n{stop: FOLLOW_PATH, at: 5}\n";
+  const std::vector<std::string> why = {"--why", "FOLLOW_PATH"};
+  for (const bool is_logged : {false, true}) {
+    folder_.write("log.jsonl", feed(lines, is_logged ? why : std::vector<std::string>()).out);
+    std::vector<std::string> of_replay = {"--replay", "log.jsonl", "quadrotor.yaml"};
+    of_replay.insert(of_replay.end(), {"--format", "jsonl"});
+    if (!is_logged) of_replay.insert(of_replay.end(), why.begin(), why.end());
+    const Result result = run(call(of_replay));
+    EXPECT_EQ(result.status, 0) << result.err;
+  }
 }
 
 /// In a replay, what is due at the time of a line comes after it.
@@ -215,7 +253,7 @@ TEST_F(StreamTest, PutsLinesAfterWhatTheRealClockHasDone) {
   EXPECT_EQ(json::parse(found[1])["time"], 0.08);
   EXPECT_EQ(json::parse(found[2])["time"], 0.080001);
   EXPECT_EQ(json::parse(found[3])["time"], 0.080001);
-  const Result replayed = run(call({"--replay", "log", "quadrotor.yaml"}));
+  const Result replayed = run(call({"--format", "jsonl", "--replay", "log", "quadrotor.yaml"}));
   EXPECT_EQ(replayed.status, 0) << replayed.err;
 }
 
@@ -400,8 +438,9 @@ TEST_F(StreamTest, SignalsEndALongRunOfTheClockWithTheStateSaved) {
     EXPECT_EQ(state["events"], last["index"]);
     EXPECT_EQ(state["events"], log.size() - 1);
 
-    const Result replay = run(call({"restless.yaml", "--replay", "log", "--max-clock-events",
-                                    "1000000000000", "--state-out", "again.json"}));
+    const Result replay =
+        run(call({"restless.yaml", "--format", "jsonl", "--replay", "log", "--max-clock-events",
+                  "1000000000000", "--state-out", "again.json"}));
     EXPECT_EQ(replay.status, 0) << replay.err;
     EXPECT_EQ(folder_.read("again.json"), folder_.read("state.json"));
   }
@@ -430,8 +469,8 @@ TEST_F(StreamTest, TooManyClockEventsEndItWithTheStateSaved) {
   EXPECT_EQ(json::parse(rest.at(1))["origin"], "reactive");
 
   folder_.write("log", result.out);
-  const Result replay = run(call({"restless.yaml", "--replay", "log", "--max-clock-events", "5",
-                                  "--state-out", "again.json"}));
+  const Result replay = run(call({"restless.yaml", "--format", "jsonl", "--replay", "log",
+                                  "--max-clock-events", "5", "--state-out", "again.json"}));
   EXPECT_EQ(replay.status, 0) << replay.err;
   EXPECT_EQ(folder_.read("again.json"), folder_.read("state.json"));
 }
@@ -640,12 +679,12 @@ TEST_F(StreamTest, ReplayGivesTheLogAgain) {
   fs::create_directory(folder_ / "elsewhere");
   fs::copy(folder_ / "quadrotor.yaml", folder_ / "elsewhere/other.yaml");
   for (const char* catalog : {"quadrotor.yaml", "other.cbc", "elsewhere/other.yaml"}) {
-    const Result result = run(call({"--replay", "log.jsonl", catalog}));
+    const Result result = run(call({"--format", "jsonl", "--replay", "log.jsonl", catalog}));
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(result.out, log);
   }
   folder_.write("log.jsonl", "\xEF\xBB\xBF" + log);
-  EXPECT_EQ(run(call({"--replay", "log.jsonl", "quadrotor.yaml"})).out, log);
+  EXPECT_EQ(run(call({"--format", "jsonl", "--replay", "log.jsonl", "quadrotor.yaml"})).out, log);
 }
 
 TEST_F(StreamTest, ReplayAndContinuedStreamHaveNoTimeoutsIfTheScriptHasNone) {
@@ -671,22 +710,22 @@ TEST_F(StreamTest, ReplayAndContinuedStreamHaveNoTimeoutsIfTheScriptHasNone) {
   EXPECT_EQ(second.status, 0) << second.err;
   EXPECT_EQ(lines_of(second.out).size(), 2U);
   folder_.write("log.jsonl", second.out);
-  const Result replay =
-      run(call({"--replay", "log.jsonl", "dock.yaml", "--state-in", "state.json"}));
+  const Result replay = run(call(
+      {"--format", "jsonl", "--replay", "log.jsonl", "dock.yaml", "--state-in", "state.json"}));
   EXPECT_EQ(replay.status, 0) << replay.err;
   EXPECT_EQ(replay.out, second.out);
 
   std::string other = second.out;
   other.erase(other.find(R"("timeouts":false,)"), 17);
   folder_.write("log.jsonl", other);
-  const Result refused =
-      run(call({"--replay", "log.jsonl", "dock.yaml", "--state-in", "state.json"}));
+  const Result refused = run(call(
+      {"--format", "jsonl", "--replay", "log.jsonl", "dock.yaml", "--state-in", "state.json"}));
   EXPECT_EQ(refused.status, 2);
   EXPECT_NE(refused.err.find("it has timeouts, but the state has none"), std::string::npos)
       << refused.err;
 
   folder_.write("log.jsonl", first.out);
-  const Result whole = run(call({"--replay", "log.jsonl", "dock.yaml"}));
+  const Result whole = run(call({"--format", "jsonl", "--replay", "log.jsonl", "dock.yaml"}));
   EXPECT_EQ(whole.status, 0) << whole.err;
   EXPECT_EQ(whole.out, first.out);
 
@@ -702,7 +741,7 @@ TEST_F(StreamTest, ReplayRepeatsTimesThatNoDoubleHas) {
   const std::string log = feed("{\"start\":\"HOVER\",\"at\":0.000649}\n").out;
   EXPECT_NE(log.find("\"time\":0.000649,"), std::string::npos) << log;
   folder_.write("log.jsonl", log);
-  const Result result = run(call({"--replay", "log.jsonl", "quadrotor.yaml"}));
+  const Result result = run(call({"--format", "jsonl", "--replay", "log.jsonl", "quadrotor.yaml"}));
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.out, log);
 }
@@ -719,7 +758,8 @@ TEST_F(StreamTest, ReplayGoesAsFarAsAnExpectationMovedTheClock) {
     const std::string log = feed(events, more).out;
     EXPECT_NE(log.find("\"origin\":\"timeout\""), std::string::npos) << log;
     folder_.write("log.jsonl", log);
-    std::vector<std::string> arguments{"--replay", "log.jsonl", "quadrotor.yaml"};
+    std::vector<std::string> arguments{"--format", "jsonl", "--replay", "log.jsonl",
+                                       "quadrotor.yaml"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Result result = run(call(arguments));
     EXPECT_EQ(result.status, 0) << result.err;
@@ -730,7 +770,8 @@ TEST_F(StreamTest, ReplayGoesAsFarAsAnExpectationMovedTheClock) {
 TEST_F(StreamTest, ReplayRefusesALogWithTimes) {
   for (const char* events : {"{\"start\":\"HOVER\"}\n", "no event\n"}) {
     folder_.write("log.jsonl", feed(events, {"--stats"}).out);
-    const Result result = run(call({"--replay", "log.jsonl", "quadrotor.yaml"}));
+    const Result result =
+        run(call({"--format", "jsonl", "--replay", "log.jsonl", "quadrotor.yaml"}));
     EXPECT_EQ(result.status, 2);
     EXPECT_NE(result.err.find("it was made with --stats"), std::string::npos) << result.err;
   }
@@ -739,7 +780,7 @@ TEST_F(StreamTest, ReplayRefusesALogWithTimes) {
 TEST_F(StreamTest, ReplaySaysWhichOptionOfTheLogIsMissing) {
   const auto replay = [this](const std::string& log) {
     folder_.write("log.jsonl", log);
-    Result result = run(call({"--replay", "log.jsonl", "quadrotor.yaml"}));
+    Result result = run(call({"--format", "jsonl", "--replay", "log.jsonl", "quadrotor.yaml"}));
     EXPECT_EQ(result.status, 1);
     return result.err.substr(0, result.err.find('\n'));
   };
@@ -750,13 +791,11 @@ TEST_F(StreamTest, ReplaySaysWhichOptionOfTheLogIsMissing) {
   EXPECT_NE(replay(first).find("--state-out"), std::string::npos);
   const std::string second = feed("{\"wait\":1}\n", {"--state-in", "state.json"}).out;
   EXPECT_NE(replay(second).find("--state-in"), std::string::npos);
-  const std::string reasons = feed("{\"start\":\"LAND\"}\n", {"--why", "LAND"}).out;
-  EXPECT_NE(replay(reasons).find("they differ in 'why'"), std::string::npos);
 }
 
 TEST_F(StreamTest, ReplayFailsWhereItsOutputDoes) {
   folder_.write("log.jsonl", feed(many_events(3)).out);
-  Call of_replay = call({"--replay", "log.jsonl", "quadrotor.yaml"});
+  Call of_replay = call({"--format", "jsonl", "--replay", "log.jsonl", "quadrotor.yaml"});
   of_replay.standard_output = "/dev/full";
   EXPECT_EQ(run(of_replay).status, 2);
 }
@@ -765,7 +804,8 @@ TEST_F(StreamTest, ReplayDrawsThePageOfALog) {
   const std::string events = many_events(60);
   const auto replay = [this](const std::string& log, std::vector<std::string> more = {}) {
     folder_.write("log.jsonl", log);
-    more.insert(more.begin(), {"--replay", "log.jsonl", "quadrotor.yaml", "--html", "page.html"});
+    more.insert(more.begin(), {"--format", "jsonl", "--replay", "log.jsonl", "quadrotor.yaml",
+                               "--html", "page.html"});
     Result result = run(call(std::move(more)));
     return std::pair(std::move(result), data_of_page(folder_.read("page.html")));
   };
@@ -777,7 +817,7 @@ TEST_F(StreamTest, ReplayDrawsThePageOfALog) {
     return all;
   };
   const std::string log = feed(events).out;
-  const auto [result, page] = replay(log, {"--format", "jsonl"});
+  const auto [result, page] = replay(log);
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.out, log);
   const json& run_of_page = page["report"]["runs"][0];
@@ -811,7 +851,7 @@ TEST_F(StreamTest, ReplayTellsTheFirstDifference) {
   const std::size_t place = changed.find("\"nodes\":", changed.find("\"index\":7,")) + 8;
   changed[place] = changed[place] == '9' ? '8' : '9';
   folder_.write("log.jsonl", changed);
-  const Result result = run(call({"--replay", "log.jsonl", "quadrotor.yaml"}));
+  const Result result = run(call({"--format", "jsonl", "--replay", "log.jsonl", "quadrotor.yaml"}));
   EXPECT_EQ(result.status, 1);
   EXPECT_TRUE(
       result.err.starts_with("cbc: log.jsonl:8: the first difference: they differ in 'search'\n"))
@@ -820,14 +860,14 @@ TEST_F(StreamTest, ReplayTellsTheFirstDifference) {
   EXPECT_NE(result.err.find("  replay: " + lines[7] + "\n"), std::string::npos);
 
   folder_.write("log.jsonl", log + lines.back() + "\n");
-  EXPECT_NE(run(call({"--replay", "log.jsonl", "quadrotor.yaml"})).status, 0);
+  EXPECT_NE(run(call({"--format", "jsonl", "--replay", "log.jsonl", "quadrotor.yaml"})).status, 0);
 }
 
 TEST_F(StreamTest, ReplayRefusesWhatIsNoLogOfTheCatalog) {
   const std::string log = feed(many_events(3)).out;
   const auto replay = [this](const std::string& text) {
     folder_.write("log.jsonl", text);
-    return run(call({"--replay", "log.jsonl", "quadrotor.yaml"}));
+    return run(call({"--format", "jsonl", "--replay", "log.jsonl", "quadrotor.yaml"}));
   };
   EXPECT_EQ(replay("").status, 2);
   EXPECT_EQ(replay("{}\n").status, 2);
