@@ -306,7 +306,7 @@ std::string AnswerComparison::name_of(std::uint32_t task) const {
 
 /// The name, and the old one if it is another.
 std::string AnswerComparison::label_of(std::uint32_t task) const {
-  const std::string name = printable(name_of(task));
+  std::string name = printable(name_of(task));
   if (!ModelPair::is_in_both(models_.tasks[task])) return name;
   const TaskId of_old = models_.old_model.tasks()[models_.tasks[task].second].id;
   const std::string old_name = printable(models_.old_model.catalog().name_of_task(of_old));

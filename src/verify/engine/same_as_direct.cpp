@@ -161,6 +161,7 @@ class MissingSearch {
         property.condition.active.push_back(behavior);
       }
       std::vector<const Property*> asked;
+      asked.reserve(properties.size());
       for (const Property& property : properties) asked.push_back(&property);
       const Exploration found = explore(catalog_, {group}, assumptions_, asked, options);
       if (found.error) result_.error = found.error;

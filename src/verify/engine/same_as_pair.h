@@ -34,7 +34,7 @@ struct GroupPair {
 struct ModelPair {
   ModelPair(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
             const GroupPair& groups, const Assumptions& old_assumptions,
-            const Assumptions& new_assumptions, const TranslationPair& translations);
+            const Assumptions& new_assumptions, const TranslationPair& of_names);
 
   /// A task of the new model and the same of the old one; none: one of them does not have it.
   using TaskPair = std::pair<std::uint32_t, std::uint32_t>;
