@@ -117,9 +117,19 @@ std::string pairs_of_group(std::size_t tasks) {
 TEST(VerifyReport, ListsThePairsOfTasksUnlessTheyAreMillions) {
   EXPECT_EQ(pairs_of_group(2), "");
   EXPECT_EQ(pairs_of_group(4),
-            "  never run together        T0 with T2, T3\n"
-            "                            T1 with T2, T3\n"
+            "  never run together        T0 with T2, T0 with T3, T1 with T2, T1 with T3,\n"
             "                            T2 with T3\n");
+  EXPECT_EQ(pairs_of_group(5),
+            "  never run together        9 pairs, marked -\n"
+            "\n"
+            "       1234\n"
+            "  1 T0\n"
+            "  2 T1 +\n"
+            "  3 T2 --\n"
+            "  4 T3 ---\n"
+            "  5 T4 ----\n");
+  EXPECT_EQ(pairs_of_group(81),
+            "  never run together        3239 pairs (--format json lists the others)\n");
   EXPECT_EQ(pairs_of_group(2001),
             "  never run together        (pairs of more than 2000 tasks are not listed)\n");
 }

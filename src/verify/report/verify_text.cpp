@@ -248,6 +248,11 @@ class GroupText {
       add_row(label, apart);
       return;
     }
+    if (candidates.size() > most_tasks_in_matrix) {
+      add_row(label,
+              {fmt::format("{} (--format json lists the others)", quantity(apart.size(), "pair"))});
+      return;
+    }
     add_row(label, {fmt::format("{}, marked -", quantity(apart.size(), "pair"))});
     text_.add(pair_matrix(
         names_of(candidates), text_.style(),
@@ -302,6 +307,7 @@ class GroupText {
 
   static constexpr std::size_t label_width = 24;
   static constexpr std::size_t most_pairs_in_list = 6;
+  static constexpr std::size_t most_tasks_in_matrix = 80;
 
   const VerifyResult& result_;
   const CompiledCatalog& catalog_;
