@@ -198,14 +198,25 @@ class CommonWords {
   }
   /// Nothing if it is about something else.
   [[nodiscard]] std::optional<std::string> describe(const Happening& event) const {
-    if (event.task != none && !has_both(event.task)) return std::nullopt;
     if (event.verb == Verb::fault || event.verb == Verb::repair) return std::nullopt;
-    if (event.behavior != none && !is_common(event.behavior)) return std::nullopt;
+    const std::string effects = describe_effects(event);
+    if ((event.task != none && !has_both(event.task)) ||
+        (event.behavior != none && !is_common(event.behavior))) {
+      if (effects.empty()) return std::nullopt;
+      return "something else of " + std::string(to_new_ ? "old" : "new") + effects;
+    }
     std::string text(name_of(event.verb));
     text.append(" ").append(name_of(event.origin)).append(" ");
     if (event.task != none) text += name(event.task);
     if (event.behavior != none) text += name(event.behavior);
-    text.append(" ").append(name_of(event.outcome));
+    return text + " " + std::string(name_of(event.outcome)) + effects + "; " +
+           describe(event.after);
+  }
+
+ private:
+  /// Changes and stops.
+  [[nodiscard]] std::string describe_effects(const Happening& event) const {
+    std::string text;
     for (const Happening::Change& change : event.changes) {
       if (!is_common(change.behavior)) continue;
       text += (change.is_activation ? " +" : " -") + name(change.behavior) +
@@ -216,10 +227,9 @@ class CommonWords {
       if (has_both(task)) stopped.insert(name(task) + " " + std::string(name_of(cause)));
     }
     for (const std::string& one : stopped) text += "; stopped " + one;
-    return text + "; " + describe(event.after);
+    return text;
   }
 
- private:
   /// Whether both have the behavior, and one of the tasks that it performs here.
   [[nodiscard]] bool is_common(BehaviorId behavior) const {
     const auto values = catalog_.performs[behavior];

@@ -69,11 +69,18 @@ void AnswerComparison::compare_events(const std::vector<Happening>& ours,
                                       const std::vector<Happening>& theirs) {
   std::size_t our_place = 0;
   std::size_t their_place = 0;
+  // What an event about something else does to what both have is a difference.
+  const auto skip = [&](const std::vector<Happening>& events, bool is_new, std::size_t& place) {
+    for (; place < events.size() && !is_in_both(events[place], is_new); ++place) {
+      const Happening nothing;
+      note_lone_changes(events[place], is_new, nothing);
+      is_new ? compare_stops(events[place], nothing) : compare_stops(nothing, events[place]);
+    }
+    return place < events.size();
+  };
   for (;; ++our_place, ++their_place) {
-    while (our_place < ours.size() && !is_in_both(ours[our_place], true)) ++our_place;
-    while (their_place < theirs.size() && !is_in_both(theirs[their_place], false)) ++their_place;
-    const bool has_ours = our_place < ours.size();
-    const bool has_theirs = their_place < theirs.size();
+    const bool has_ours = skip(ours, true, our_place);
+    const bool has_theirs = skip(theirs, false, their_place);
     if (!has_ours && !has_theirs) return;
     if (has_ours && has_theirs && is_same_event(ours[our_place], theirs[their_place])) {
       compare_answers(ours[our_place], theirs[their_place]);
