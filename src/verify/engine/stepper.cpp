@@ -347,6 +347,7 @@ void Stepper::come_due() {
   for (const std::uint32_t task : model_.tasks_in_order()) {
     const std::uint32_t reactive = model_.tasks()[task].reactive;
     if (reactive == none || now_.cells[model_.layout().queue + reactive] != 1) continue;
+    close_event();  // before this one leaves the queue, perhaps silently
     start_reactive(reactive);
   }
 }
