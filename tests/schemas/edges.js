@@ -333,6 +333,7 @@ const properties = {
     never('stopped: {HOVER: any}'),
     never('active: GPS'),
     never('active: []'),
+    never('running: []'),
     never('running: [HOVER], active_includes: []'),
     never('faulty: [~]'),
     never('requested: [HOVER]'),
@@ -342,7 +343,6 @@ const properties = {
   ],
   unseen: [
     property('can_start: LAND'), // not defined
-    never('running: []'), // says nothing
     never('running: ~'),
     never('running: [HOVER], stopped: [HOVER]'), // contradicts itself
     assume('never: [{GPS: true}]'), // so it is at the beginning
