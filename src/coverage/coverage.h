@@ -84,9 +84,6 @@ struct CoverageQuestion {
 /// Of the walks of proofs and plans; what is not given is as they have it.
 [[nodiscard]] GoalSearchOptions search_options(const StateLimits& limits);
 
-/// The path by which a script in the folder names the catalog. Empty if that is standard input.
-[[nodiscard]] std::string catalog_from(const std::string& folder, const CoverageOptions& options);
-
 /// Writes the scripts that are missing beside the missions, and reports them. Returns the exit
 /// status.
 [[nodiscard]] int write_missing(const CoverageOptions& options, const CoverageQuestion& question);

@@ -153,8 +153,8 @@ int judge_mutants(const CoverageOptions& options, const CoverageQuestion& questi
   judge_all(options, judge, of_judge.is_stopped, result);
 
   if (options.scripts) {
-    const int status =
-        write_scripts(*options.scripts, catalog_from(*options.scripts, options), result);
+    const int status = write_scripts(
+        *options.scripts, path_in_script(options.paths.front(), *options.scripts), result);
     if (status != exit_ok) return status;
   }
   const MutantsFormat& format = *find_named(mutants_formats(), options.format);

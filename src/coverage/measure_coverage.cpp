@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -42,16 +40,6 @@ void watch_missions(const std::vector<Mission>& missions, std::optional<std::uin
     progress.clear();
     if (!take(mission, std::move(result))) return;
   }
-}
-
-std::string catalog_from(const std::string& folder, const CoverageOptions& options) {
-  const std::string& catalog = options.paths.front();
-  if (catalog == "-") return {};
-  // Of a folder that does not exist yet, a relative path would stay one.
-  std::error_code error;
-  const std::filesystem::path path = std::filesystem::proximate(
-      std::filesystem::absolute(catalog), std::filesystem::absolute(folder), error);
-  return error ? std::string{} : path.generic_string();
 }
 
 GoalSearchOptions search_options(const StateLimits& limits) {

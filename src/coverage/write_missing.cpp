@@ -185,7 +185,7 @@ MissingMissions find_missing(const CoverageOptions& options, const CoverageQuest
   const CompiledCatalog& catalog = *question.catalog;
   GroupProgress progress("exploring", catalog.group_count());
   MissingMissionOptions of_search;
-  of_search.catalog = catalog_from(*options.write_missing, options);
+  of_search.catalog = path_in_script(options.paths.front(), *options.write_missing);
   of_search.exploration = search_options(options.limits);
   of_search.exploration.on_progress = [&](GroupId group, std::uint64_t states) {
     progress.show(group, states);

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
-#include <utility>
 
 #include "core/files/file_set.h"
+#include "core/files/missions.h"
 #include "core/files/output.h"
 #include "core/files/read.h"
 #include "core/script/log_script.h"
@@ -14,38 +14,41 @@
 namespace cbc::cli {
 namespace {
 
-/// The path of the catalog as the script has to name it.
-std::string path_from(const std::string& script, const std::string& catalog) {
-  const std::filesystem::path path(catalog);
-  if (script == "-" || path.is_absolute()) return catalog;
-  const std::filesystem::path folder = std::filesystem::path(script).parent_path();
-  return path.lexically_proximate(folder.empty() ? "." : folder).string();
-}
-
 /// Writes the events of the log as a script.
-int write_as_script(const SolveOptions& options) {
-  const auto catalog = load_catalog(options.paths.front());
-  const auto text = read_input(*options.stream.replay);
-  if (catalog == nullptr || !text) return exit_unusable;
+int write_as_script(const SolveOptions& options, const CompiledCatalog& catalog) {
+  const std::string& log = *options.stream.replay;
+  const auto text = read_input(log);
+  if (!text) return exit_unusable;
   std::string error;
-  auto script = read_log(*text, *catalog, error);
-  if (!script) {
-    return complain("cannot read {}: {}", quote(display_name(*options.stream.replay)), error);
-  }
-  const std::string& file = *options.stream.to_script;
-  script->catalog = path_from(file, options.paths.front());
-  return write_output(file, write_script(*catalog, *script, {}));
+  auto script = read_log(*text, catalog, error);
+  if (!script) return complain("cannot read {}: {}", quote(display_name(log)), error);
+  const std::filesystem::path file = *options.stream.to_script;
+  script->catalog = path_in_script(options.paths.front(), (file.parent_path() / ".").string());
+  return write_output(file.string(), write_script(catalog, *script, {}));
 }
 
 }  // namespace
 
 int replay(SolveOptions options) {
-  int status = replay_stream(options);
+  if (options.paths.size() != 1) {
+    return complain("--replay needs a log and its catalog: cbc solve --replay LOG CATALOG");
+  }
+  const std::string& log = *options.stream.replay;
+  if (log == "-" && options.format != "jsonl") {
+    return complain("--replay - needs --format jsonl: the other formats read the log twice");
+  }
+  FileSet files;
+  const auto catalog = files.load(options.paths.front());
+  files.print_findings();
+  if (catalog == nullptr) return exit_unusable;
+  int status = replay_stream(options, *catalog->compiled);
   if (status == exit_unusable) return status;
-  if (options.stream.to_script) status = std::max(status, write_as_script(options));
+  if (options.stream.to_script) {
+    status = std::max(status, write_as_script(options, *catalog->compiled));
+  }
   if (options.format == "jsonl") return status;
-  options.paths.push_back(*options.stream.replay);
-  return std::max(status, solve_missions(options));
+  options.paths = {log};
+  return std::max(status, solve_missions(options, catalog));
 }
 
 }  // namespace cbc::cli

@@ -316,18 +316,10 @@ class StreamReplay {
 
 }  // namespace
 
-int replay_stream(const SolveOptions& options) {
-  if (options.paths.size() != 1) {
-    return complain("--replay needs a log and its catalog: cbc solve --replay LOG CATALOG");
-  }
+int replay_stream(const SolveOptions& options, const CompiledCatalog& catalog) {
   const std::string& path = *options.stream.replay;
-  if (path == "-" && options.format != "jsonl") {
-    return complain("--replay - needs --format jsonl: the other formats read the log twice");
-  }
-  const auto catalog = load_catalog(options.paths.front());
   std::optional<Snapshot> state;
-  if (catalog == nullptr || !load_state(options.stream, *catalog, state) ||
-      !knows_names(*catalog, options.explain)) {
+  if (!load_state(options.stream, catalog, state) || !knows_names(catalog, options.explain)) {
     return exit_unusable;
   }
   if (const auto refusal = find_refusal(path)) {
@@ -339,7 +331,7 @@ int replay_stream(const SolveOptions& options) {
   }
   note_read(path);
   if (!can_save_state(options.stream)) return exit_unusable;
-  const int status = StreamReplay(file, display_name(path), *catalog, options).run(state);
+  const int status = StreamReplay(file, display_name(path), catalog, options).run(state);
   if (file != STDIN_FILENO) ::close(file);
   return status;
 }

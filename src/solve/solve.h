@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/check/check.h"
 #include "core/command_line/limits.h"
 #include "core/report/event_json.h"
 #include "core/script/runner.h"
@@ -71,8 +73,10 @@ void tell_left_out(const std::string& page, std::uint64_t events);
 /// Reports why a run ended early, if it did. Returns the exit status of the run.
 [[nodiscard]] int report_end(const Runner& runner, const CoordinatorOptions& options);
 
-/// Runs scripts, and reports them in one of the formats for whole runs. Returns the exit status.
-[[nodiscard]] int solve_missions(const SolveOptions& options);
+/// Runs scripts, and reports them in one of the formats for whole runs. `catalog`: on which all of
+/// them run; null if it is the first path, or they name theirs. Returns the exit status.
+[[nodiscard]] int solve_missions(const SolveOptions& options,
+                                 std::shared_ptr<const CheckedCatalog> catalog = nullptr);
 
 /// Runs one script, or events from standard input, and writes each event as a line. The paths are
 /// a catalog and a script, "-" for a stream; or a script that names its catalog. Returns the exit
@@ -80,9 +84,10 @@ void tell_left_out(const std::string& page, std::uint64_t events);
 [[nodiscard]] int solve_stream(const SolveOptions& options);
 
 /// Runs the events of a recorded stream again, and compares the outputs, which are written only if
-/// the format is jsonl. The path is that of the catalog.
-[[nodiscard]] int replay_stream(const SolveOptions& options);
-/// The same, and then reports the events in the format that is wanted, and writes them as a script.
+/// the format is jsonl.
+[[nodiscard]] int replay_stream(const SolveOptions& options, const CompiledCatalog& catalog);
+/// The same on the catalog that is the path; then reports the events in the format that is wanted,
+/// and writes them as a script.
 [[nodiscard]] int replay(SolveOptions options);
 
 }  // namespace cbc::cli

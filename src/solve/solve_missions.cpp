@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -160,9 +161,10 @@ void tell_left_out(const std::string& page, std::uint64_t events) {
            quantity(events, "event"), HtmlReport::most_data >> 20U);
 }
 
-int solve_missions(const SolveOptions& options) {
+int solve_missions(const SolveOptions& options, std::shared_ptr<const CheckedCatalog> catalog) {
   const SolveFormat& format = *find_named(solve_formats(), options.format);
   MissionLoader loader;
+  if (catalog != nullptr) loader.give_catalog(std::move(catalog));
   const std::optional<std::vector<Mission>> missions = loader.load(options.paths);
   if (!missions) {
     // CI systems could take a missing report for one without failures.

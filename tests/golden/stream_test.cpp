@@ -220,6 +220,34 @@ TEST_F(StreamTest, LogsAreScripts) {
   EXPECT_EQ(again.out, folder_.read("log.jsonl"));
 }
 
+/// It names its catalog, wherever it is written.
+TEST_F(StreamTest, ScriptsOfLogsRunInOtherFolders) {
+  folder_.write("log.jsonl", feed("{start: FOLLOW_PATH}\n").out);
+  fs::create_directory(folder_ / "scripts");
+  for (const std::string& file :
+       {std::string("scripts/relative.yaml"), folder_ / "scripts/absolute.yaml"}) {
+    const Result written =
+        run(call({"--replay", "log.jsonl", "quadrotor.yaml", "--to-script", file}));
+    EXPECT_EQ(written.status, 0) << written.err;
+    const Result again = run(call({file}));
+    EXPECT_EQ(again.status, 0) << again.err;
+  }
+}
+
+TEST_F(StreamTest, ReplayWarnsOfItsCatalogOnce) {
+  folder_.write("older.yaml", "behaviors: [{behavior: A, task: FOLLOW_PATH, efficacy: 50}]\n");
+  folder_.write("input", "{start: FOLLOW_PATH}\n");
+  Call logged = call({"older.yaml", "-", "--format", "jsonl"});
+  logged.standard_input = folder_ / "input";
+  const Result log = run(logged);
+  EXPECT_NE(log.err, "");
+  folder_.write("log.jsonl", log.out);
+  const Result replayed =
+      run(call({"--replay", "log.jsonl", "older.yaml", "--to-script", "script.yaml"}));
+  EXPECT_EQ(replayed.status, 0);
+  EXPECT_EQ(replayed.err, log.err);
+}
+
 /// A log with reasons is that of the same events without.
 TEST_F(StreamTest, ReplayComparesDecisionsNotReasons) {
   const std::string lines = "{start: FOLLOW_PATH}\n{stop: FOLLOW_PATH, at: 5}\n";

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "core/files/output.h"
@@ -14,7 +15,7 @@ namespace cbc::cli {
 
 std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::string>& paths) {
   std::size_t first_script = 0;
-  if (!is_folder(paths.front())) {
+  if (given_catalog_ == nullptr && !is_folder(paths.front())) {
     const auto first = files_.read(paths.front());
     if (first && (first->is(FileKind::script) || first->is(FileKind::properties))) {
       add_script(*first);
@@ -106,6 +107,15 @@ std::shared_ptr<const CheckedCatalog> MissionLoader::catalog_of(const InputFile&
   }
   const std::optional<NamedCatalog> named = files_.expect_catalog(script);
   return named ? files_.load(*named) : nullptr;
+}
+
+std::string path_in_script(const std::string& catalog, const std::string& folder) {
+  if (catalog == "-") return {};
+  // Of a folder that does not exist yet, a relative path would stay one.
+  std::error_code error;
+  const std::filesystem::path path = std::filesystem::proximate(
+      std::filesystem::absolute(catalog), std::filesystem::absolute(folder), error);
+  return error ? std::string{} : path.generic_string();
 }
 
 void complain_of_run(const Mission& mission, const RunResult& result, const std::string& reason) {

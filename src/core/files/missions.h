@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
@@ -26,6 +27,10 @@ class MissionLoader {
  public:
   /// From now on, folders and paths may be without a script.
   void need_none() { needs_none_ = true; }
+  /// All scripts run on this catalog, and the paths are those of scripts alone.
+  void give_catalog(std::shared_ptr<const CheckedCatalog> catalog) {
+    given_catalog_ = std::move(catalog);
+  }
   /// Scripts in this folder do not count.
   void leave_out(std::string folder) { left_out_ = std::move(folder); }
 
@@ -56,6 +61,9 @@ class MissionLoader {
   std::optional<std::string> left_out_;
   bool has_failed_ = false;
 };
+
+/// The path by which a script in the folder names a catalog. Empty if that is standard input.
+[[nodiscard]] std::string path_in_script(const std::string& catalog, const std::string& folder);
 
 /// Prints why the run of a mission ended early.
 void complain_of_run(const Mission& mission, const RunResult& result, const std::string& reason);

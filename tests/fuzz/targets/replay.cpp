@@ -18,7 +18,7 @@ void run(const std::string& input) {
   options.paths = {compiled_file_of(parts.front())};
   if (options.paths.front().empty()) return;
   options.stream.replay = "-";
-  static_cast<void>(run_program(parts.back(), [&options] { return cli::replay_stream(options); }));
+  static_cast<void>(run_program(parts.back(), [&options] { return cli::replay(options); }));
 }
 
 /// What streams write.

@@ -23,8 +23,7 @@ void run(const std::string& input) {
       run_program(parts.back(), [&options] { return cli::solve_stream(options); });
   options.paths = {catalog};
   options.stream.replay = "-";
-  const ProgramRun replay =
-      run_program(stream.output, [&options] { return cli::replay_stream(options); });
+  const ProgramRun replay = run_program(stream.output, [&options] { return cli::replay(options); });
   require(replay.status != cli::exit_no, "the replay differs from the log");
   // Lines that were refused, and a run that ended early, make the status of the stream another one.
   if (stream.status != cli::exit_unusable) {
