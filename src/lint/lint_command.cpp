@@ -171,8 +171,9 @@ int lint(const LintCommand& command) {
 
   Linter linter(command, std::move(settings));
   const bool has_all = lint_all(command, linter);
-  if (!linter.files().empty() || !linter.not_understood().empty())
+  if (!linter.files().empty() || !linter.not_understood().empty()) {
     print_report(command, linter, has_all && !linter.has_failed());
+  }
   if (command.fix && !command.diff && !linter.has_mended() && has_faults(linter.files())) {
     complain("none of these findings can be fixed in place");
   }

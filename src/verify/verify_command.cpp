@@ -1,5 +1,6 @@
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -15,28 +16,28 @@ namespace cbc::cli {
 
 namespace {
 
-Values situation_entry() {
+/// Two words with an equals sign between them.
+Values pair_of_words(const std::string& placeholder, std::string expected,
+                     const std::string& example) {
   Values values;
-  values.placeholder = "KEY=VALUE";
-  values.expected = "a situation variable or a behavior, and its value";
-  values.check = [](const std::string& text) -> std::string {
+  values.placeholder = placeholder;
+  values.expected = std::move(expected);
+  values.check = [placeholder, example](const std::string& text) -> std::string {
     const std::size_t equals = text.find('=');
     if (equals != 0 && equals != std::string::npos && equals + 1 < text.size()) return {};
-    return fmt::format("expected KEY=VALUE, such as GPS_SIGNAL=false, found {}", quote(text));
+    return fmt::format("expected {}, such as {}, found {}", placeholder, example, quote(text));
   };
   return values;
 }
 
+Values situation_entry() {
+  return pair_of_words("KEY=VALUE", "a situation variable or a behavior, and its value",
+                       "GPS_SIGNAL=false");
+}
+
 Values old_and_new_name() {
-  Values values;
-  values.placeholder = "OLD=NEW";
-  values.expected = "the names of a task, behavior or variable in both catalogs";
-  values.check = [](const std::string& text) -> std::string {
-    const std::size_t equals = text.find('=');
-    if (equals != 0 && equals != std::string::npos && equals + 1 < text.size()) return {};
-    return fmt::format("expected OLD=NEW, such as LAND=DESCEND, found {}", quote(text));
-  };
-  return values;
+  return pair_of_words("OLD=NEW", "the names of a task, behavior or variable in both catalogs",
+                       "LAND=DESCEND");
 }
 
 constexpr const char* verify_examples =

@@ -1,12 +1,14 @@
 #include "core/catalog/shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
 #include <optional>
 #include <string_view>
 #include <vector>
 
+#include "core/catalog/older_catalog.h"
 #include "core/catalog/older_format.h"
 #include "core/support/wording.h"
 #include "core/yaml/values.h"
@@ -70,41 +72,40 @@ constexpr Hint catalog_hints[] = {{"excludes", exclude_advice, true},
                                   {"conflicts", exclude_advice, true},
                                   {"incompatible_lists", exclude_advice, true},
                                   {"precedence_constraints", require_advice, true}};
-constexpr Hint behavior_hints[] = {{"excludes", exclude_advice, true},
-                                   {"exclusive_with", exclude_advice, true},
-                                   {"conflicts", exclude_advice, true},
-                                   {"conflicts_with", exclude_advice, true},
-                                   {"incompatible_with", exclude_advice, true},
-                                   {"incompatible_lists", exclude_advice, true},
-                                   {"mutually_exclusive", exclude_advice, true},
-                                   {"needs", require_advice, true},
-                                   {"depends_on", require_advice, true},
-                                   {"dependencies", require_advice, true},
-                                   {"preconditions", require_advice, true},
-                                   {"prerequisites", require_advice, true},
-                                   {"capabilities", require_advice, true},
-                                   {"execution_goal", task_advice},
-                                   {"start_on_request", task_advice},
-                                   {"reactive_start", task_advice},
-                                   {"parameters", task_advice},
-                                   {"arguments", task_advice},
-                                   {"priority", start_advice}};
-constexpr Hint task_hints[] = {{"excludes", exclude_advice, true},
-                               {"exclusive_with", exclude_advice, true},
-                               {"conflicts", exclude_advice, true},
-                               {"conflicts_with", exclude_advice, true},
-                               {"incompatible_with", exclude_advice, true},
-                               {"mutually_exclusive", exclude_advice, true},
-                               {"requires", behavior_advice, true},
-                               {"needs", require_advice, true},
-                               {"depends_on", require_advice, true},
-                               {"dependencies", require_advice, true},
-                               {"preconditions", require_advice, true},
-                               {"prerequisites", require_advice, true},
-                               {"situation", behavior_advice, true},
-                               {"suitability", behavior_advice},
-                               {"package", behavior_advice},
-                               {"priority", start_advice}};
+/// What says of a behavior or a task how it depends on others.
+constexpr Hint constraint_hints[] = {{"excludes", exclude_advice, true},
+                                     {"exclusive_with", exclude_advice, true},
+                                     {"conflicts", exclude_advice, true},
+                                     {"conflicts_with", exclude_advice, true},
+                                     {"incompatible_with", exclude_advice, true},
+                                     {"mutually_exclusive", exclude_advice, true},
+                                     {"needs", require_advice, true},
+                                     {"depends_on", require_advice, true},
+                                     {"dependencies", require_advice, true},
+                                     {"preconditions", require_advice, true},
+                                     {"prerequisites", require_advice, true}};
+
+template <std::size_t count>
+constexpr auto with_constraint_hints(const Hint (&others)[count]) {
+  std::array<Hint, std::size(constraint_hints) + count> hints;
+  std::copy_n(others, count,
+              std::copy(std::begin(constraint_hints), std::end(constraint_hints), hints.begin()));
+  return hints;
+}
+
+constexpr auto behavior_hints = with_constraint_hints({{"incompatible_lists", exclude_advice, true},
+                                                       {"capabilities", require_advice, true},
+                                                       {"execution_goal", task_advice},
+                                                       {"start_on_request", task_advice},
+                                                       {"reactive_start", task_advice},
+                                                       {"parameters", task_advice},
+                                                       {"arguments", task_advice},
+                                                       {"priority", start_advice}});
+constexpr auto task_hints = with_constraint_hints({{"requires", behavior_advice, true},
+                                                   {"situation", behavior_advice, true},
+                                                   {"suitability", behavior_advice},
+                                                   {"package", behavior_advice},
+                                                   {"priority", start_advice}});
 
 constexpr const Shape* in_catalog[] = {&behavior, &task, &exclusivity_list, &variable};
 constexpr const Shape* in_default_values[] = {&task_defaults, &behavior_defaults};
@@ -234,8 +235,7 @@ bool resembles_catalog(const yaml::Node& root) {
 bool is_list_of_behaviors(const yaml::Node& node) {
   return is_list_of_mappings(node) &&
          std::all_of(node.items.begin(), node.items.end(), [](const Node* item) {
-           return item->find("behavior") != nullptr &&
-                  (item->find("task") != nullptr || item->find("tasks") != nullptr);
+           return item->find("behavior") != nullptr && older::has_task(*item);
          });
 }
 

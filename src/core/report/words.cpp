@@ -85,11 +85,9 @@ std::string describe_condition(const CompiledCatalog& catalog, const StateCondit
     parts.push_back(fmt::format("{} does not run", task(id)));
   }
   if (condition.only_active) {
-    parts.push_back(fmt::format(
-        "only {} active",
-        condition.active.size() == 1
-            ? fmt::format("behavior {} is", behavior(condition.active.front()))
-            : fmt::format("the behaviors {} are", join(condition.active, ", ", behavior))));
+    const bool is_one = condition.active.size() == 1;
+    parts.push_back(fmt::format("only {} {} {} active", is_one ? "behavior" : "the behaviors",
+                                join(condition.active, ", ", behavior), is_one ? "is" : "are"));
   } else {
     for (const BehaviorId id : condition.active) {
       parts.push_back(fmt::format("behavior {} is active", behavior(id)));
@@ -153,7 +151,7 @@ std::string describe_priorities(const Assumptions& assumptions) {
   return (words.size() == 1 ? "priority " : "priorities ") + list_with_and(words);
 }
 
-/// Tasks that a script may request, though the assumptions do not: "; LOCALIZE is not requested".
+/// Tasks that a script may request, though the assumptions do not: "; LOCALIZE is not".
 std::string describe_unrequested(const CompiledCatalog& catalog, const Assumptions& assumptions) {
   constexpr std::size_t most_names = 5;
   std::set<TaskId> requested;

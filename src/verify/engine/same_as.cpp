@@ -393,8 +393,8 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
                     : result.end                         ? Verdict::Result::undecided
                                                          : Verdict::Result::proved;
   result.result = result.explored;
-  if (counts_all && result.explored == Verdict::Result::proved) {
-    if (!result.is_compared) result.result = Verdict::Result::undecided;
+  if (counts_all && !result.is_compared && result.explored == Verdict::Result::proved) {
+    result.result = Verdict::Result::undecided;
   }
   if (!result.direct.empty()) result.result = Verdict::Result::violated;
   return result;
