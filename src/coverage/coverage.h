@@ -44,9 +44,11 @@ class Deadline {
   explicit Deadline(double seconds) : seconds_(seconds) {}
 
   [[nodiscard]] bool has_come() const { return signals_.have_come() || is_late(); }
-  [[nodiscard]] bool is_late() const {
+  [[nodiscard]] bool is_late() const { return seconds_ > 0 && seconds_left() <= 0; }
+  /// Of a limit.
+  [[nodiscard]] double seconds_left() const {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
-    return seconds_ > 0 && elapsed.count() >= seconds_;
+    return seconds_ - elapsed.count();
   }
 
  private:

@@ -81,11 +81,11 @@ struct MutantCount {
   std::uint64_t without_script = 0;  ///< of these: see MutantVerdict::Doubt
   std::uint64_t unjudged = 0;
 
-  /// Of those that a mission could notice, how many one does.
-  [[nodiscard]] GoalCount score() const { return {noticed + survived, noticed, 0}; }
-  /// Whether the score says anything: some count, or it is known that none does.
-  [[nodiscard]] bool is_score_known() const { return score().goals > 0 || is_complete(); }
-  /// Whether it is known of all whether they count.
+  /// How many are noticed, of all but those that no mission can notice.
+  [[nodiscard]] GoalCount score() const {
+    return {noticed + survived + undecided + unjudged, noticed, 0};
+  }
+  /// Whether it is known of all whether a mission can notice them.
   [[nodiscard]] bool is_complete() const { return undecided + unjudged == 0; }
 };
 
