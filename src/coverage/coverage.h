@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -49,6 +50,15 @@ class Deadline {
   [[nodiscard]] double seconds_left() const {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
     return seconds_ - elapsed.count();
+  }
+  /// Whether there is time for a group, of several that are visited one after the other. A tenth of
+  /// the limit is shared by those after it, which may be small, and `kept` is the part of the limit
+  /// that is for what comes after all of them.
+  [[nodiscard]] bool has_time_for(GroupId group, std::size_t groups, double kept = 0) const {
+    if (has_come() || seconds_ == 0) return !has_come();
+    const std::size_t after = groups - 1 - group;
+    kept += 0.1 * static_cast<double>(after) / static_cast<double>(groups);
+    return seconds_left() > kept * seconds_;
   }
 
  private:

@@ -22,6 +22,11 @@
 
 namespace cbc {
 
+inline constexpr std::string_view incomplete_proof =
+    "incomplete: a limit or an interrupt ended the proof, and goals that nothing is proven of may "
+    "be "
+    "impossible";
+
 /// The goals of each section, met and missed.
 [[nodiscard]] Table counts_table(const CatalogCoverage& coverage, const Style& style);
 
@@ -62,7 +67,8 @@ struct WrittenMissions {
   std::span<const Goal> goals;
   std::optional<std::uint64_t> missions;  ///< that were there; empty: none were named
   const MissingMissions* missing = nullptr;
-  std::vector<std::string> paths;  ///< by script
+  std::string incomplete;          ///< what ended the work, and where; empty: nothing did
+  std::vector<std::string> paths;  ///< by script; empty if they were not written
   std::string next;  ///< the command that looks at what the scripts leave; may be empty
 };
 
