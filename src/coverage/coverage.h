@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -44,9 +45,20 @@ class Deadline {
   explicit Deadline(double seconds) : seconds_(seconds) {}
 
   [[nodiscard]] bool has_come() const { return signals_.have_come() || is_late(); }
-  [[nodiscard]] bool is_late() const {
+  [[nodiscard]] bool is_late() const { return seconds_ > 0 && seconds_left() <= 0; }
+  /// Of a limit.
+  [[nodiscard]] double seconds_left() const {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
-    return seconds_ > 0 && elapsed.count() >= seconds_;
+    return seconds_ - elapsed.count();
+  }
+  /// Whether there is time for a group, of several that are visited one after the other. A tenth of
+  /// the limit is shared by those after it, which may be small, and `kept` is the part of the limit
+  /// that is for what comes after all of them.
+  [[nodiscard]] bool has_time_for(GroupId group, std::size_t groups, double kept = 0) const {
+    if (has_come() || seconds_ == 0) return !has_come();
+    const std::size_t after = groups - 1 - group;
+    kept += 0.1 * static_cast<double>(after) / static_cast<double>(groups);
+    return seconds_left() > kept * seconds_;
   }
 
  private:

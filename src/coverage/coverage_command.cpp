@@ -26,6 +26,10 @@ std::optional<CoverageQuestion> find_question(std::shared_ptr<const CompiledCata
     usage_error("coverage", "{} needs a catalog before the scripts", option);
     return std::nullopt;
   }
+  if (catalog->tasks.empty()) {
+    complain("{}: catalog {} has no tasks", option, quote(catalog->file));
+    return std::nullopt;
+  }
   if (const auto too_many = find_too_many_pairs(*catalog)) {
     complain("{}: {}", option, *too_many);
     return std::nullopt;

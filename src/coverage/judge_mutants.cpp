@@ -1,8 +1,5 @@
-#include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -47,25 +44,6 @@ bool all_pass(const CompiledCatalog& catalog, const std::vector<Script>& mission
   return false;
 }
 
-/// Judges all mutants, on several threads. What a stop leaves is not judged.
-void judge_all(const CoverageOptions& options, const MutantJudge& judge,
-               const std::function<bool()>& is_stopped, MutantsResult& result) {
-  constexpr std::chrono::milliseconds between_looks(100);
-  const auto judge_one = [&](std::size_t number) {
-    return is_stopped() ? MutantVerdict() : judge.judge(result.mutants[number]);
-  };
-  const std::size_t threads = std::min<std::size_t>(
-      thread_count(options.jobs), std::max<std::size_t>(1, result.mutants.size()));
-  Progress progress("judging", result.mutants.size());
-  OrderedWork<MutantVerdict> work(result.mutants.size(), threads, judge_one);
-  while (result.verdicts.size() < result.mutants.size() && !is_stopped()) {
-    progress.begin(describe(*result.catalog, result.mutants[result.verdicts.size()]));
-    while (!work.wait_for(between_looks)) progress.show();
-    result.verdicts.push_back(work.take());
-  }
-  result.verdicts.resize(result.mutants.size());
-}
-
 /// Writes the scripts of survivors, which name the catalog by its path from the folder, if it has
 /// one. The name says what each is about: "robot.320.exclusion_removed.mission.yaml".
 int write_scripts(const std::string& folder, const std::string& path_of_catalog,
@@ -96,14 +74,10 @@ int write_scripts(const std::string& folder, const std::string& path_of_catalog,
 }
 
 int status_of(const CoverageOptions& options, const MutantCount& count) {
-  int status = count.is_complete() ? exit_ok : exit_no;
-  if (options.fail_under.empty()) return status;
-  if (!count.is_score_known()) {
-    complain("whether the missions notice {} of the mutants is unknown (--fail-under)",
-             describe_percent(options.fail_under));
-    return exit_no;
+  const int status = count.is_complete() ? exit_ok : exit_no;
+  if (options.fail_under.empty() || count.score().tenths() >= tenths_in(options.fail_under)) {
+    return status;
   }
-  if (count.score().tenths() >= tenths_in(options.fail_under)) return status;
   complain("the missions notice {} of the mutants, less than {} (--fail-under)",
            cbc::describe_percent(count.score()), describe_percent(options.fail_under));
   return exit_no;
@@ -142,15 +116,23 @@ int judge_mutants(const CoverageOptions& options, const CoverageQuestion& questi
 
   // States of one mutant; the largest groups of catalogs have far more, and nobody would wait.
   constexpr std::uint64_t most_states = 1'000'000;
-  const Deadline deadline(options.limits.seconds());
-  JudgeOptions of_judge;
-  of_judge.limits.max_states =
-      options.limits.max_states > 0 ? options.limits.max_states : most_states;
-  of_judge.limits.max_memory = options.limits.memory() / thread_count(options.jobs);
-  of_judge.is_stopped = [&] { return deadline.has_come(); };
-  const MutantJudge judge(*result.catalog, catalog, missions, question.assumptions.assumptions,
-                          of_judge);
-  judge_all(options, judge, of_judge.is_stopped, result);
+  const double seconds = options.limits.seconds();
+  const Deadline deadline(seconds);
+  Progress progress("judging", 1);
+  progress.begin(std::string(catalog.file));
+  JudgingOptions of_judging;
+  of_judging.max_states = options.limits.max_states > 0 ? options.limits.max_states : most_states;
+  of_judging.max_memory = options.limits.memory();
+  of_judging.jobs = thread_count(options.jobs);
+  of_judging.is_stopped = [&] { return deadline.has_come(); };
+  if (seconds > 0) of_judging.seconds_left = [&] { return deadline.seconds_left(); };
+  of_judging.on_progress = [&](bool is_compared, std::size_t done, std::size_t count) {
+    progress.show(fmt::format(" ({} of {} {})", done, count,
+                              is_compared ? "compared with it" : "mutants by the missions"));
+  };
+  const MutantJudge judge(*result.catalog, catalog, missions, question.assumptions.assumptions);
+  result.verdicts = judge_all(judge, result.mutants, of_judging);
+  progress.clear();
 
   if (options.scripts) {
     const int status = write_scripts(

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -62,6 +63,10 @@ bool can_be_covered(const CheckedCatalog& catalog) {
   if (catalog.text == nullptr) {
     complain("the catalog {} was compiled; expected the YAML, whose lines count",
              quote(catalog.compiled->file));
+    return false;
+  }
+  if (catalog.compiled->tasks.empty()) {
+    complain("catalog {} has no tasks to cover", quote(catalog.compiled->file));
     return false;
   }
   const std::optional<std::string> too_many = find_too_many_pairs(*catalog.compiled);
@@ -148,7 +153,7 @@ bool prove(CatalogCoverage& coverage, const StatedAssumptions& stated,
   of_proof.search = search_options(options.limits);
   of_proof.search.on_progress = [&](GroupId group, std::uint64_t states) {
     progress.show(group, states);
-    return !deadline.has_come();
+    return deadline.has_time_for(group, catalog.group_count());
   };
   GoalProof proof = prove_unreachable(catalog, coverage.goals(), stated.assumptions, of_proof);
   progress.line().clear();
@@ -161,7 +166,9 @@ bool prove(CatalogCoverage& coverage, const StatedAssumptions& stated,
     complain("--prove: not all states of group {} of {} were visited; nothing is proven about it",
              group, quote(catalog.file));
   }
-  coverage.set_unreachable(std::move(proof.unreachable), stated);
+  const bool is_complete = std::all_of(proof.groups.begin(), proof.groups.end(),
+                                       [](const GoalSearchResult& one) { return one.is_complete; });
+  coverage.set_unreachable(std::move(proof.unreachable), stated, is_complete);
   return true;
 }
 
@@ -178,8 +185,11 @@ int report(Coverage coverage, const std::vector<StatedAssumptions>& assumptions,
     }
   }
   const CoverageFormat& format = *find_named(coverage_formats(), options.format);
-  const int status = write_output(options.output, format.write(coverage, style_for(options.output),
-                                                               columns_for(options.output)));
+  int status = write_output(options.output, format.write(coverage, style_for(options.output),
+                                                         columns_for(options.output)));
+  const bool is_proved = std::all_of(coverage.catalogs.begin(), coverage.catalogs.end(),
+                                     std::mem_fn(&CatalogCoverage::is_proved));
+  if (!is_proved) status = std::max<int>(status, exit_no);
   if (options.fail_under.empty()) return status;
   const GoalCount total = coverage.total();
   if (total.met * 1000 >= tenths_in(options.fail_under) * total.goals) return status;

@@ -35,16 +35,23 @@ namespace fs = std::filesystem;
 constexpr std::string_view mark =
     "# Written by 'cbc coverage --write-missing', which replaces this file unless it was changed: ";
 
+/// The line after it in scripts of a call that a limit or an interrupt ended.
+constexpr std::string_view incomplete_mark =
+    "# Incomplete: a limit or an interrupt ended that call, and other scripts are missing.\n";
+
 std::string sign(const std::string& text) {
   return fmt::format("{}{}\n{}", mark, to_hex(digest_of(text)), text);
 }
 
-/// Whether this program wrote the file, and nobody has changed it.
-bool is_signed(const fs::path& path) {
+/// The text that this program wrote, if nobody has changed it.
+std::optional<std::string> read_signed(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string content{std::istreambuf_iterator<char>(file), {}};
   const std::size_t end = content.find('\n');
-  return end != std::string::npos && content == sign(content.substr(end + 1));
+  if (end == std::string::npos) return std::nullopt;
+  std::string text = content.substr(end + 1);
+  if (content != sign(text)) return std::nullopt;
+  return text;
 }
 
 /// A folder of scripts that `cbc coverage` writes, and replaces when it is called again. Each says
@@ -65,13 +72,14 @@ class MissionFolder {
   /// After an error, no script is new.
   [[nodiscard]] int replace(const std::vector<File>& files);
 
-  /// Whether it had no scripts when it was opened.
-  [[nodiscard]] bool was_empty() const { return names_.empty(); }
+  /// Whether it had scripts of a call that nothing ended when it was opened.
+  [[nodiscard]] bool was_complete() const { return was_complete_; }
   [[nodiscard]] std::string path_of(const std::string& name) const;
 
  private:
   std::string path_;
   std::vector<std::string> names_;  ///< of our files
+  bool was_complete_ = false;
 };
 
 std::string MissionFolder::path_of(const std::string& name) const {
@@ -101,8 +109,10 @@ bool MissionFolder::open() {
     std::error_code ignored;
     const bool is_file = fs::is_regular_file(entry->symlink_status(ignored));
     const std::string name = entry->path().filename().string();
-    const bool is_ours = is_file && name.ends_with(".yaml") && is_signed(entry->path());
-    (is_ours ? names_ : foreign).push_back(name);
+    std::optional<std::string> text;
+    if (is_file && name.ends_with(".yaml")) text = read_signed(entry->path());
+    (text ? names_ : foreign).push_back(name);
+    if (text && !text->starts_with(incomplete_mark)) was_complete_ = true;
     if (const auto refusal = find_read_file(path_of(name))) {
       complain(*refusal);
       return false;
@@ -152,8 +162,8 @@ int MissionFolder::replace(const std::vector<File>& files) {
   return exit_ok;
 }
 
-/// By goal: whether the missions meet it. Empty if one of them ends early; the reason is printed,
-/// unless it is the deadline.
+/// By goal: whether the missions meet it, as far as they ran before the deadline. Empty if one of
+/// them ends early; the reason is printed.
 std::optional<std::vector<std::uint8_t>> goals_met_by(const std::vector<Mission>& missions,
                                                       const std::vector<Goal>& goals,
                                                       const CoverageOptions& options,
@@ -161,20 +171,18 @@ std::optional<std::vector<std::uint8_t>> goals_met_by(const std::vector<Mission>
   std::vector<std::uint8_t> met(goals.size(), 0);
   CoordinatorOptions coordination;
   coordination.is_stopped = [&] { return deadline.has_come(); };
-  bool is_done = true;
+  bool has_ended = false;
   watch_missions(
       missions, options.jobs, coordination,
       [&](const Mission&) -> const std::vector<Goal>& { return goals; },
       [&](const Mission& mission, const MonitoredResult& watched) {
         const std::string reason = describe_end(watched.result, coordination);
-        is_done = reason.empty() && !deadline.has_come();
-        if (!is_done && !deadline.has_come()) {
-          complain("{}: {}", quote(mission.script.file), reason);
-        }
+        has_ended = !reason.empty() && !deadline.has_come();
+        if (has_ended) complain("{}: {}", quote(mission.script.file), reason);
         for (std::size_t goal = 0; goal < goals.size(); ++goal) met[goal] |= watched.met[goal];
-        return is_done;
+        return !has_ended && !deadline.has_come();
       });
-  if (!is_done) return std::nullopt;
+  if (has_ended) return std::nullopt;
   return met;
 }
 
@@ -182,6 +190,7 @@ std::optional<std::vector<std::uint8_t>> goals_met_by(const std::vector<Mission>
 MissingMissions find_missing(const CoverageOptions& options, const CoverageQuestion& question,
                              const std::vector<Goal>& goals, const std::vector<std::uint8_t>& met,
                              const Deadline& deadline) {
+  constexpr double for_planning = 0.2;
   const CompiledCatalog& catalog = *question.catalog;
   GroupProgress progress("exploring", catalog.group_count());
   MissingMissionOptions of_search;
@@ -189,7 +198,7 @@ MissingMissions find_missing(const CoverageOptions& options, const CoverageQuest
   of_search.exploration = search_options(options.limits);
   of_search.exploration.on_progress = [&](GroupId group, std::uint64_t states) {
     progress.show(group, states);
-    return true;
+    return deadline.has_time_for(group, catalog.group_count(), for_planning);
   };
   of_search.on_mission = [&](std::size_t number) {
     progress.line().show(fmt::format(" ({})", quantity(number, "test")));
@@ -198,18 +207,27 @@ MissingMissions find_missing(const CoverageOptions& options, const CoverageQuest
   return find_missing_missions(catalog, goals, met, question.assumptions.assumptions, of_search);
 }
 
-/// How far the work had come when it was stopped.
-std::string describe_progress(const MissingMissions& missing, std::size_t groups) {
+/// What ended the work, and how far it had come. Empty if nothing did.
+std::string describe_end_of(const MissingMissions& missing, bool were_all_run, std::size_t groups,
+                            const CoverageOptions& options, const Deadline& deadline) {
+  if (missing.is_complete()) return {};
+  if (missing.reached == MissingMissions::Phase::done) return "a limit ended the exploration";
+  const std::string limit = format_decimal(parse_seconds(options.limits.time_limit).value, 6);
   const std::string states = quantity(missing.states, "state");
-  switch (missing.reached) {
-    case MissingMissions::Phase::exploration:
-      return fmt::format("in the exploration, after {}", states);
-    case MissingMissions::Phase::planning:
-      return fmt::format("in the planning, after the exploration of {} with {}",
-                         quantity(groups, "group"), states);
-    default:
-      return fmt::format("after {} had been found", quantity(missing.missions.size(), "test"));
+  std::string place;
+  if (!were_all_run) {
+    place = "in the missions that exist";
+  } else if (missing.reached == MissingMissions::Phase::exploration) {
+    place = "in the exploration, after " + states;
+  } else if (missing.reached == MissingMissions::Phase::planning) {
+    place = fmt::format("in the planning, after the exploration of {} with {}",
+                        quantity(groups, "group"), states);
+  } else {
+    place = fmt::format("after {} had been found", quantity(missing.missions.size(), "test"));
   }
+  return fmt::format(
+      "{} {}", deadline.is_late() ? fmt::format("--time-limit {} ended it", limit) : "interrupted",
+      place);
 }
 
 /// A path for a shell.
@@ -243,16 +261,6 @@ std::string command_for_mutants(const CoverageOptions& options, const MissingMis
   return command + " --mutants --scripts DIR";
 }
 
-/// Says that nothing is written. Returns the exit status.
-int complain_of_end(const CoverageOptions& options, const Deadline& deadline,
-                    const std::string& progress) {
-  const std::string limit = format_decimal(parse_seconds(options.limits.time_limit).value, 6);
-  const std::string reason =
-      deadline.is_late() ? fmt::format("--time-limit {} ended it", limit) : "interrupted";
-  complain("--write-missing: {} {}; nothing was written", reason, progress);
-  return exit_no;
-}
-
 }  // namespace
 
 int write_missing(const CoverageOptions& options, const CoverageQuestion& question) {
@@ -263,25 +271,15 @@ int write_missing(const CoverageOptions& options, const CoverageQuestion& questi
   const std::vector<Goal> goals = find_goals(catalog);
   const Deadline deadline(options.limits.seconds());
   const auto met = goals_met_by(question.missions, goals, options, deadline);
-  if (!met) {
-    return deadline.has_come() ? complain_of_end(options, deadline, "in the missions that exist")
-                               : exit_unusable;
-  }
+  if (!met) return exit_unusable;
+  const bool were_all_run = question.missions.empty() || !deadline.has_come();
   const MissingMissions missing = find_missing(options, question, goals, *met, deadline);
   if (missing.error) return complain("--write-missing: {}", *missing.error);
-  if (missing.reached != MissingMissions::Phase::done) {
-    return complain_of_end(options, deadline, describe_progress(missing, catalog.group_count()));
-  }
   if (!missing.fault.empty()) {
     complain("--write-missing: {}", missing.fault);
     complain("this is a fault of cbc, not of the catalog {}; please report it with the catalog",
              quote(catalog.file));
     return exit_internal;
-  }
-  if (!missing.partial.empty() && !folder.was_empty()) {
-    complain("a limit ended the exploration; the folder {} is as it was",
-             quote(*options.write_missing));
-    return exit_no;
   }
   WrittenMissions written;
   written.catalog = &catalog;
@@ -289,17 +287,27 @@ int write_missing(const CoverageOptions& options, const CoverageQuestion& questi
   written.goals = goals;
   if (options.paths.size() > 1) written.missions = question.missions.size();
   written.missing = &missing;
-  written.next = command_for_mutants(options, missing);
-  std::vector<MissionFolder::File> files;
-  for (const MissingMissions::Mission& mission : missing.missions) {
-    files.push_back({mission.name + ".yaml", mission.text});
-    written.paths.push_back(folder.path_of(files.back().name));
+  written.incomplete =
+      describe_end_of(missing, were_all_run, catalog.group_count(), options, deadline);
+  const bool is_kept = !missing.is_complete() && folder.was_complete();
+  const bool is_written = missing.is_complete() || (!is_kept && !missing.missions.empty());
+  if (is_written) {
+    written.next = command_for_mutants(options, missing);
+    std::vector<MissionFolder::File> files;
+    for (const MissingMissions::Mission& mission : missing.missions) {
+      const std::string_view head = missing.is_complete() ? std::string_view() : incomplete_mark;
+      files.push_back({mission.name + ".yaml", std::string(head) + mission.text});
+      written.paths.push_back(folder.path_of(files.back().name));
+    }
+    if (const int status = folder.replace(files); status != exit_ok) return status;
   }
-  if (const int status = folder.replace(files); status != exit_ok) return status;
   const int status =
       write_output(options.output, written_missions_to_text(written, columns_for(options.output)));
   if (status != exit_ok) return status;
-  return missing.unmet.empty() && missing.partial.empty() ? exit_ok : exit_no;
+  if (is_kept) {
+    complain("{}; the folder {} is as it was", written.incomplete, quote(*options.write_missing));
+  }
+  return missing.unmet.empty() && missing.is_complete() ? exit_ok : exit_no;
 }
 
 }  // namespace cbc::cli

@@ -50,6 +50,19 @@ class Coverage : public testing::Test {
     EXPECT_EQ(covered.status, 0) << covered.out << covered.err;
   }
 
+  /// There are scripts, which say that others are missing, and their expectations hold.
+  void expect_incomplete() {
+    ASSERT_TRUE(fs::exists(folder));
+    EXPECT_FALSE(files().empty());
+    for (const auto& [name, text] : files()) {
+      EXPECT_NE(text.find("\n# Incomplete: a limit or an interrupt ended that call"),
+                std::string::npos)
+          << text;
+    }
+    const Result solved = cbc({"solve", folder});
+    EXPECT_EQ(solved.status, 0) << solved.out << solved.err;
+  }
+
   /// A report whose first line has another end.
   static std::string with_heading(std::string report, const std::string& end) {
     return report.insert(report.find('\n'), end);
@@ -92,7 +105,24 @@ TEST_F(WriteMissing, KeepsItsScriptsIfALimitComesFirst) {
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(result.err,
             "cbc: a limit ended the exploration; the folder '" + folder + "' is as it was\n");
+  EXPECT_NE(result.out.find("\nincomplete: a limit ended the exploration\n"), std::string::npos)
+      << result.out;
+  EXPECT_EQ(result.out.find(folder), std::string::npos) << "no file was written";
   EXPECT_EQ(files(), before);
+}
+
+TEST_F(WriteMissing, ReplacesIncompleteScripts) {
+  scratch.write("robot.yaml", robot);
+  EXPECT_EQ(write_missing(scratch / "robot.yaml", {"--max-states", "2"}).status, 1);
+  const Files before = files();
+  EXPECT_EQ(write_missing(scratch / "robot.yaml", {"--max-states", "6"}).status, 1);
+  expect_incomplete();
+  EXPECT_NE(files(), before);
+  EXPECT_EQ(write_missing(scratch / "robot.yaml").status, 0);
+  for (const auto& [name, text] : files()) {
+    EXPECT_EQ(text.find("Incomplete"), std::string::npos) << text;
+  }
+  expect_complete(scratch / "robot.yaml", {folder});
 }
 
 TEST_F(WriteMissing, MeetsWhatTheMissionOfTheQuadrotorDoesNot) {
@@ -185,26 +215,29 @@ TEST_F(WriteMissing, NamesTheCommandForWhatIsLeft) {
   EXPECT_EQ(judged.status, 0) << judged.out << judged.err;
 }
 
-TEST_F(WriteMissing, WritesNothingOnceTheTimeIsOver) {
+/// Of px4.yaml what is known then are the values of variables at the beginning.
+TEST_F(WriteMissing, WritesWhatIsKnownOnceTheTimeIsOver) {
   const Result result = write_missing("catalogs/px4.yaml", {"--time-limit", "0.000001"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err, "");
   const std::string expected =
-      "cbc: --write-missing: --time-limit 0.000001 ended it in the exploration, after ";
-  EXPECT_EQ(result.err.substr(0, expected.size()), expected);
-  EXPECT_TRUE(result.err.ends_with("; nothing was written\n")) << result.err;
-  EXPECT_FALSE(fs::exists(folder));
+      "\nincomplete: --time-limit 0.000001 ended it in the exploration, after ";
+  EXPECT_NE(result.out.find(expected), std::string::npos);
+  expect_incomplete();
 }
 
 TEST_F(WriteMissing, SaysWhereTheTimeWasOver) {
   const Result result = write_missing(
       "catalogs/quadrotor.yaml", {"catalogs/quadrotor.mission.yaml", "--time-limit", "0.0000010"});
-  EXPECT_EQ(result.err,
-            "cbc: --write-missing: --time-limit 0.000001 ended it in the missions that exist; "
-            "nothing was written\n");
+  EXPECT_EQ(result.status, 1);
+  const std::string expected =
+      "\nincomplete: --time-limit 0.000001 ended it in the missions that exist\n";
+  EXPECT_NE(result.out.find(expected), std::string::npos);
+  EXPECT_NE(result.out.find("\nno test was found\n"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder));
 }
 
-TEST_F(WriteMissing, WritesNothingAfterAnInterrupt) {
+TEST_F(WriteMissing, WritesWhatIsKnownAfterAnInterrupt) {
   Result result;
   try {
     result = run_on_terminal_until(
@@ -213,11 +246,10 @@ TEST_F(WriteMissing, WritesNothingAfterAnInterrupt) {
   } catch (const std::system_error& error) {
     GTEST_SKIP() << "no terminal here: " << error.what();
   }
-  EXPECT_EQ(result.status, 1) << result.out;
-  EXPECT_NE(result.out.find("cbc: --write-missing: interrupted in the exploration, after "),
-            std::string::npos)
-      << result.out;
-  EXPECT_FALSE(fs::exists(folder));
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.out.find("incomplete: interrupted in the exploration, after "),
+            std::string::npos);
+  expect_incomplete();
 }
 
 TEST_F(WriteMissing, KeepsWhatAnybodyHasWritten) {

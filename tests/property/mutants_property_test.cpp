@@ -445,13 +445,13 @@ void judge_some(const Case& one, Random& random, oracle::Statistics& statistics)
         read_script(*parse(mission), one.sample.catalog, Severity::note, diagnostics).value());
     demand(!find_notice(one.sample.catalog, scripts.back()), "a mission fails at once");
   }
-  const MutantJudge judge(source, one.sample.catalog, scripts, one.assumptions, {});
+  const MutantJudge judge(source, one.sample.catalog, scripts, one.assumptions);
   random.shuffle(keys);
   keys.resize(std::min(keys.size(), judged_per_case));
   for (const std::string& key : keys) {
     try {
-      check_verdict(one, key, expected.all().at(key), judge.judge(found.at(key)), random,
-                    statistics);
+      const std::vector<MutantVerdict> verdicts = judge_all(judge, {&found.at(key), 1}, {});
+      check_verdict(one, key, expected.all().at(key), verdicts.front(), random, statistics);
     } catch (const std::exception& error) {
       throw std::runtime_error(key + ": " + error.what());
     }

@@ -194,6 +194,7 @@ const lies = {
     ['an unreachable goal that is reachable', goal('task_ran'), {unreachable: false}],
     ['an unreachable goal without a reason', goal('task_ran'), {unreachable: true}],
     ['a reason of a goal that is reachable', goal('task_ran'), {reason: 'it never runs'}],
+    ['a proof that is incomplete or not', ({catalogs}) => catalogs[0], {incomplete: false}],
   ],
 
   mutants: [

@@ -54,11 +54,16 @@ class CatalogCoverage {
   void add(const std::string& mission, const std::vector<std::uint8_t>& met);
 
   /// Sets goals apart that are proven unreachable: by goal why, or nothing. Those that a mission
-  /// meets all the same stay, as missions need not keep to the assumptions.
-  void set_unreachable(std::vector<std::string> reasons, StatedAssumptions assumptions) {
+  /// meets all the same stay, as missions need not keep to the assumptions. `is_complete`: whether
+  /// the others are proven to be reachable.
+  void set_unreachable(std::vector<std::string> reasons, StatedAssumptions assumptions,
+                       bool is_complete) {
     reasons_ = std::move(reasons);
     assumptions_ = std::move(assumptions);
+    is_proved_ = is_complete;
   }
+  /// Whether nothing ended a proof.
+  [[nodiscard]] bool is_proved() const { return is_proved_; }
   [[nodiscard]] bool is_unreachable(std::size_t goal) const {
     return !reasons_.empty() && !reasons_[goal].empty() && !is_met(goal);
   }
@@ -97,6 +102,7 @@ class CatalogCoverage {
   std::vector<std::vector<std::uint32_t>> met_by_;  ///< by goal
   std::vector<std::string> reasons_;                ///< by goal; empty: nothing is proven
   std::optional<StatedAssumptions> assumptions_;
+  bool is_proved_ = true;
 };
 
 /// The coverage of several catalogs, each by the missions that run on it.

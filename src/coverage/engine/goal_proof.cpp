@@ -358,7 +358,15 @@ class Returns {
   std::map<TaskId, std::vector<StateStore::Number>> starts_from_;
 };
 
-/// The groups that a goal is about: of a variable those whose behaviors name it.
+/// Of a variable that no behavior names.
+bool may_have(const Assumptions& assumptions, const Goal& goal) {
+  return initial_value(assumptions, goal.variable) == goal.value ||
+         std::find(assumptions.variables.begin(), assumptions.variables.end(), goal.variable) !=
+             assumptions.variables.end();
+}
+
+}  // namespace
+
 std::vector<GroupId> groups_of(const CompiledCatalog& catalog, const Goal& goal) {
   if (goal.task != none) return {catalog.tasks[goal.task].group};
   if (goal.behavior != none) return {catalog.group_of(goal.behavior)};
@@ -368,15 +376,6 @@ std::vector<GroupId> groups_of(const CompiledCatalog& catalog, const Goal& goal)
   }
   return groups;
 }
-
-/// Of a variable that no behavior names.
-bool may_have(const Assumptions& assumptions, const Goal& goal) {
-  return initial_value(assumptions, goal.variable) == goal.value ||
-         std::find(assumptions.variables.begin(), assumptions.variables.end(), goal.variable) !=
-             assumptions.variables.end();
-}
-
-}  // namespace
 
 Assumptions assumptions_of_goals(const CompiledCatalog& catalog) {
   Assumptions assumptions = default_assumptions(catalog);

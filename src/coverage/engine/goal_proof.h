@@ -39,6 +39,9 @@ struct GoalProofOptions {
                                           const Assumptions& assumptions,
                                           const GoalProofOptions& options);
 
+/// The groups that a goal is about: of a variable those whose behaviors name it.
+[[nodiscard]] std::vector<GroupId> groups_of(const CompiledCatalog& catalog, const Goal& goal);
+
 /// Whether the goal is that of a timeout before which another one always comes.
 [[nodiscard]] bool is_forestalled(const CompiledCatalog& catalog, const Goal& goal,
                                   const GoalFacts& facts);

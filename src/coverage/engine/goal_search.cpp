@@ -275,6 +275,7 @@ GoalSearchResult search_goals(const CompiledCatalog& catalog, GroupId group,
   result.states = search.store().size();
   result.moves = search.transitions();
   result.is_complete = search.is_complete();
+  if (!result.is_complete) result.end = search.end();
   if (result.is_complete) visitor.race().tell(monitor);
   return result;
 }

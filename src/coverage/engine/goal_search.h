@@ -29,7 +29,8 @@ struct GoalSearchOptions {
 struct GoalSearchResult {
   std::uint64_t states = 0;
   std::uint64_t moves = 0;
-  bool is_complete = false;  ///< false: a limit came first, and nothing is proven
+  bool is_complete = false;           ///< false: a limit came first, and nothing is proven
+  std::optional<ExplorationEnd> end;  ///< which one; if not complete
   /// See Model::find_obstacle(); then nothing was visited.
   std::optional<std::string> error;
 };

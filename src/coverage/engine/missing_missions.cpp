@@ -16,6 +16,8 @@ namespace {
 using Goals = MissionPlanner::Goals;
 using Phase = MissingMissions::Phase;
 
+constexpr const char* stopped_before = "no test was found before the end";
+
 bool is_any(const Goals& goals) {
   return std::any_of(goals.begin(), goals.end(), [](std::uint8_t goal) { return goal != 0; });
 }
@@ -45,34 +47,56 @@ class MissionFinder {
     graph_ = explore_goals(catalog_, goals_, missing_, assumptions_, of_exploration);
     result_.error = graph_.error;
     result_.states = graph_.state_count();
-    const bool has_all_groups = graph_.parts.size() == catalog_.group_count();
-    if (graph_.error || is_stopped() || !has_all_groups) return std::move(result_);
-    result_.reached = Phase::planning;
-    for (const GoalGraph::Part& part : graph_.parts) {
-      if (!part.is_complete) result_.partial.push_back(part.group);
-    }
+    if (graph_.error) return std::move(result_);
+    note_partial();
+    go_on_to(Phase::planning);
     const auto stop = [this] {
       show_progress();
       return is_stopped();
     };
     MissionPlanner planner(graph_, options_.events, stop);
-    if (is_stopped()) return std::move(result_);
     set_apart(planner);
-    if (result_.partial.empty()) result_.lower_bound = planner.lower_bound(bounded());
+    if (result_.partial.empty() && !is_stopped()) {
+      result_.lower_bound = planner.lower_bound(bounded());
+    }
     for (std::uint32_t part = 0; part < graph_.parts.size(); ++part) {
       result_.most_events = std::max(result_.most_events, planner.most_events(part));
     }
     perform(planner, missing_);
-    wait_for_timeouts(planner);
+    if (!is_stopped()) wait_for_timeouts(planner);
     perform(planner, missing_timeouts(false));
-    if (is_stopped()) return std::move(result_);
-    result_.reached = Phase::done;
+    go_on_to(Phase::done);
     show_first_values();
     list_unmet();
     return std::move(result_);
   }
 
  private:
+  /// Unless it is stopped in the present one.
+  void go_on_to(Phase phase) {
+    if (!is_stopped()) result_.reached = phase;
+  }
+
+  void note_partial() {
+    for (const GoalGraph::Part& part : graph_.parts) {
+      if (!part.is_complete) result_.partial.push_back(part.group);
+    }
+    result_.unexplored = GroupId(static_cast<std::uint32_t>(graph_.parts.size()));
+    for (GroupId group = result_.unexplored; group < catalog_.group_count(); ++group) {
+      result_.partial.push_back(group);
+    }
+  }
+  /// Whether all is known of the moves that may meet the goal. Returns are sought after the
+  /// exploration, and variables that no behavior names belong to the first group.
+  [[nodiscard]] bool is_explored(const Goal& goal) const {
+    if (goal.kind == Goal::Kind::reactive_returned && is_stopped()) return false;
+    const std::vector<GroupId> groups = groups_of(catalog_, goal);
+    if (groups.empty()) return result_.unexplored > 0 || catalog_.group_count() == 0;
+    return std::none_of(groups.begin(), groups.end(), [&](GroupId group) {
+      return std::binary_search(result_.partial.begin(), result_.partial.end(), group);
+    });
+  }
+
   /// Sets apart what is unreachable, and what each script meets as it begins.
   void set_apart(const MissionPlanner& planner) {
     first_values_.assign(goals_.size(), 0);
@@ -86,11 +110,13 @@ class MissionFinder {
       } else if (planner.reachable()[number] == 0 || is_forestalled(catalog_, goal, graph_.facts)) {
         missing_[number] = 0;
         const auto place = static_cast<std::uint32_t>(number);
-        if (result_.partial.empty()) {
+        if (is_explored(goal)) {
           result_.unreachable.push_back(
               {place, why_unreachable(catalog_, goals_, number, assumptions_, graph_.facts)});
         } else {
-          result_.unmet.push_back({place, "not met before a limit ended the exploration"});
+          result_.unmet.push_back({place, is_stopped()
+                                              ? stopped_before
+                                              : "not met before a limit ended the exploration"});
         }
       }
     }
@@ -129,8 +155,7 @@ class MissionFinder {
   void perform(MissionPlanner& planner, const Goals& wanted) {
     for (const MissionPlanner::Path& path : planner.plan(wanted)) {
       show_progress();
-      if (is_stopped()) return;
-      result_.reached = Phase::simulation;
+      go_on_to(Phase::simulation);
       std::vector<std::uint8_t> is_timeout;
       for (const std::uint32_t edge : path.edges) {
         const auto items = graph_.items_of(graph_.edges[edge]);
@@ -263,7 +288,8 @@ class MissionFinder {
       if (missing_[goal] == 0 && first_values_[goal] == 0) continue;
       const bool is_timeout = goals_[goal].kind == Goal::Kind::timeout_fired;
       result_.unmet.push_back(
-          {goal, is_timeout
+          {goal, result_.reached != Phase::done ? stopped_before
+                 : is_timeout
                      ? "waiting in the states that were tried did not show it; events at other "
                        "times were not tried"
                      : "no script that was tried shows it"});

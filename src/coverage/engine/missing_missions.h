@@ -33,17 +33,24 @@ struct MissingMissions {
   };
   enum class Phase : std::uint8_t { exploration, planning, simulation, done };
 
+  /// Whether nothing ended the work, so that what is not met is known to be hard to meet.
+  [[nodiscard]] bool is_complete() const { return reached == Phase::done && partial.empty(); }
+
   std::vector<Mission> missions;
-  std::uint64_t wanted = 0;        ///< goals that the missions so far do not meet
-  std::vector<Unmet> unreachable;  ///< of these: proven, no mission can meet them; by goal
-  std::vector<Unmet> unmet;        ///< the others that no script was found for; by goal
+  std::uint64_t wanted = 0;  ///< goals that the missions so far do not meet
+  /// Of these: proven, no mission can meet them; by goal. Of groups that were explored completely.
+  std::vector<Unmet> unreachable;
+  std::vector<Unmet> unmet;  ///< the others that no script was found for; by goal
   /// The least number of such scripts, each about one group, with at most so many events as its
   /// group allows. Empty if a limit ended the exploration.
   std::optional<std::uint64_t> lower_bound;
   std::uint32_t most_events = 0;  ///< of a script, with those of the clock
-  std::vector<GroupId> partial;   ///< groups whose exploration a limit ended
+  /// Groups that were not explored completely: those whose exploration a limit ended, then, after a
+  /// stop, the others, of which the first is `unexplored`.
+  std::vector<GroupId> partial;
+  GroupId unexplored;  ///< the number of groups if there are none
   std::uint64_t states = 0;
-  Phase reached = Phase::done;       ///< what is_stopped ended; then the rest means nothing
+  Phase reached = Phase::done;       ///< what is_stopped ended; then the missions are those so far
   std::optional<std::string> error;  ///< see Model::find_obstacle()
   std::string fault;                 ///< of cbc: a script does not do what was proven
 };
@@ -54,7 +61,8 @@ struct MissingMissionOptions {
   std::uint32_t events = 8;  ///< of a script, if no goal takes more
   /// Called now and then after the exploration, with the number of scripts so far. May be empty.
   std::function<void(std::size_t number)> on_mission;
-  /// Asked now and then; once it is true, the work ends. May be empty.
+  /// Asked now and then; once it is true, the work ends soon, with simple missions for what is
+  /// known by then. May be empty.
   std::function<bool()> is_stopped;
 };
 

@@ -85,6 +85,12 @@ std::uint32_t MissionPlanner::end_of(std::uint32_t part) const {
              : static_cast<std::uint32_t>(graph_.state_count());
 }
 
+std::uint32_t MissionPlanner::part_of(std::uint32_t state) const {
+  std::uint32_t part = 0;
+  while (end_of(part) <= state) ++part;
+  return part;
+}
+
 /// States are numbered breadth first, so the first edge to a state is of a shortest path.
 void MissionPlanner::find_depths() {
   depths_.assign(graph_.state_count(), never_reached);
@@ -101,39 +107,45 @@ void MissionPlanner::find_depths() {
 /// Each goal counts in the group where it is nearest.
 void MissionPlanner::find_limits(std::uint32_t events) {
   limits_.assign(graph_.parts.size(), events);
+  nearest_.assign(graph_.goal_count, none);
   std::vector<std::uint32_t> least(graph_.goal_count, never_reached);
-  std::vector<std::uint32_t> nearest(graph_.goal_count, 0);
+  std::vector<std::uint32_t> home(graph_.goal_count, 0);
+  const auto note = [&](std::uint32_t goal, std::uint32_t part, std::uint32_t length) {
+    reachable_[goal] = 1;
+    if (length >= least[goal]) return false;
+    least[goal] = length;
+    home[goal] = part;
+    return true;
+  };
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> returns;  // part and goal
   for (std::uint32_t part = 0; part < graph_.parts.size(); ++part) {
-    const auto note = [&](std::uint32_t goal, std::uint32_t length) {
-      reachable_[goal] = 1;
-      if (length >= least[goal]) return;
-      least[goal] = length;
-      nearest[goal] = part;
-    };
     const std::uint32_t first_edge = graph_.begin[graph_.parts[part].first_state];
     const std::uint32_t last_edge = graph_.begin[end_of(part)];
-    std::vector<std::uint32_t> returns;
+    const std::size_t first_return = returns.size();
     for (std::uint32_t edge = first_edge; edge < last_edge; ++edge) {
       for (const std::uint32_t item : graph_.items_of(graph_.edges[edge])) {
         if (item >= graph_.goal_count) continue;
         if (graph_.is_return[item] == 0) {
-          note(item, depths_[source_[edge]] + 1);
-        } else if (std::find(returns.begin(), returns.end(), item) == returns.end()) {
-          returns.push_back(item);
+          if (note(item, part, depths_[source_[edge]] + 1)) nearest_[item] = edge;
+          continue;
         }
+        const std::pair entry(part, item);
+        const auto of_part = returns.begin() + static_cast<std::ptrdiff_t>(first_return);
+        if (std::find(of_part, returns.end(), entry) == returns.end()) returns.push_back(entry);
       }
     }
-    for (const std::uint32_t goal : returns) {
-      if (is_stopped()) return;
-      Path path = path_that_returns(part, goal);
-      if (path.edges.empty()) continue;
-      note(goal, static_cast<std::uint32_t>(path.edges.size()));
-      if (nearest[goal] == part) returning_[goal] = std::move(path);
+  }
+  for (const auto& [part, goal] : returns) {
+    if (is_stopped()) break;
+    Path path = path_that_returns(part, goal);
+    if (path.edges.empty()) continue;
+    if (note(goal, part, static_cast<std::uint32_t>(path.edges.size()))) {
+      returning_[goal] = std::move(path);
     }
   }
   for (std::size_t goal = 0; goal < graph_.goal_count; ++goal) {
     if (least[goal] == never_reached) continue;
-    limits_[nearest[goal]] = std::max(limits_[nearest[goal]], least[goal]);
+    limits_[home[goal]] = std::max(limits_[home[goal]], least[goal]);
   }
   for (const std::uint32_t limit : limits_) longest_ = std::max(longest_, limit);
 }
@@ -408,9 +420,41 @@ std::vector<MissionPlanner::Path> MissionPlanner::plan(const Goals& wanted) {
   for (Weight& weight : by_price) weight = weight / 64 + 1;
   std::vector<Path> paths = cover(wanted, by_price);
   drop_and_cut(paths, wanted);
+  if (is_stopped()) {
+    add_shortest(paths, wanted);
+    return paths;
+  }
   std::vector<Path> others = cover(wanted, std::vector<Weight>(graph_.goal_count, 1));
   drop_and_cut(others, wanted);
-  return others.size() < paths.size() ? others : paths;
+  return others.size() < paths.size() && !is_stopped() ? others : paths;
+}
+
+/// The longest first, which meet others on their way.
+void MissionPlanner::add_shortest(std::vector<Path>& paths, const Goals& wanted) const {
+  Goals missing = wanted;
+  for (const Path& path : paths) {
+    for (const std::uint32_t goal : goals_of(path)) missing[goal] = 0;
+  }
+  std::vector<std::pair<std::uint32_t, Path>> candidates;  // by goal
+  for (std::uint32_t goal = 0; goal < graph_.goal_count; ++goal) {
+    if (missing[goal] == 0 || reachable_[goal] == 0) continue;
+    if (nearest_[goal] == none) {
+      candidates.emplace_back(goal, returning_[goal]);
+      continue;
+    }
+    const std::uint32_t state = source_[nearest_[goal]];
+    Path path{part_of(state), shortest_to(state)};
+    path.edges.push_back(nearest_[goal]);
+    candidates.emplace_back(goal, std::move(path));
+  }
+  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+    return a.second.edges.size() > b.second.edges.size();
+  });
+  for (auto& [wanted_goal, path] : candidates) {
+    if (missing[wanted_goal] == 0) continue;
+    for (const std::uint32_t goal : goals_of(path)) missing[goal] = 0;
+    paths.push_back(std::move(path));
+  }
 }
 
 /// Drops paths that meet nothing alone, those with the fewest goals first, and ends each path where
@@ -468,11 +512,7 @@ std::vector<MissionPlanner::Path> MissionPlanner::paths_toward(const Goals& want
   });
   if (states.size() > count) states.resize(count);
   std::vector<Path> paths;
-  for (const std::uint32_t state : states) {
-    std::uint32_t part = 0;
-    while (end_of(part) <= state) ++part;
-    paths.push_back({part, shortest_to(state)});
-  }
+  for (const std::uint32_t state : states) paths.push_back({part_of(state), shortest_to(state)});
   return paths;
 }
 

@@ -25,7 +25,7 @@ class MissionPlanner {
 
   /// The graph must outlive this object. A path has at most `events` moves, or as many as it takes
   /// to meet the goal of its group that is furthest away. `is_stopped`: asked now and then; once it
-  /// is true, what is planned means nothing, and comes soon. May be empty.
+  /// is true, what is planned comes soon. May be empty.
   MissionPlanner(const GoalGraph& graph, std::uint32_t events,
                  std::function<bool()> is_stopped = {});
 
@@ -42,7 +42,8 @@ class MissionPlanner {
   [[nodiscard]] std::uint64_t lower_bound(const Goals& wanted);
 
   /// Paths that together meet the reachable ones of these goals. Each ends with a move that meets a
-  /// goal that no other path meets.
+  /// goal that no other path meets. Once it is stopped, goals that no path meets yet are met by
+  /// shortest paths, but for some returns, and there may be more paths than it takes.
   [[nodiscard]] std::vector<Path> plan(const Goals& wanted);
 
   /// Shortest paths to the states whose moves meet some of the goals: at most `count`, those with
@@ -63,6 +64,7 @@ class MissionPlanner {
   [[nodiscard]] std::vector<std::uint32_t> shortest_to(std::uint32_t state) const;
   [[nodiscard]] Path path_that_returns(std::uint32_t part, std::uint32_t goal) const;
   [[nodiscard]] std::uint32_t end_of(std::uint32_t part) const;
+  [[nodiscard]] std::uint32_t part_of(std::uint32_t state) const;
   [[nodiscard]] std::vector<std::uint32_t> find_homes() const;
   [[nodiscard]] std::uint64_t improve(std::vector<Weight>& weights, std::uint32_t part);
   void weigh(const std::vector<Weight>& weights, std::uint32_t part);
@@ -70,6 +72,7 @@ class MissionPlanner {
   [[nodiscard]] Path heaviest_path(std::uint32_t part) const;
   [[nodiscard]] Path search(std::uint32_t part, const std::vector<Weight>& weights) const;
   [[nodiscard]] std::vector<Path> cover(const Goals& wanted, const std::vector<Weight>& weights);
+  void add_shortest(std::vector<Path>& paths, const Goals& wanted) const;
   void drop_and_cut(std::vector<Path>& paths, const Goals& wanted) const;
 
   const GoalGraph& graph_;
@@ -80,6 +83,7 @@ class MissionPlanner {
   std::vector<std::uint32_t> limits_;    ///< by part
   std::uint32_t longest_ = 0;            ///< of limits_
   Goals reachable_;
+  std::vector<std::uint32_t> nearest_;  ///< by goal, but for returns: the first edge that meets it
   std::vector<Path> returning_;  ///< by goal: a shortest path that meets a return; else empty
   std::vector<Weight> weights_;  ///< by goal: those that the rounds ended with
 

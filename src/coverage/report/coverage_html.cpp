@@ -30,6 +30,7 @@ class CatalogPage {
                                                                         *coverage_.assumptions())));
     }
     html_ += counts_table(coverage_, plain_style()).html("counts");
+    if (!coverage_.is_proved()) html_ += fmt::format("<p>{}</p>\n", incomplete_proof);
     write_missions();
     write_source();
     return html_ + "</section>\n";

@@ -128,6 +128,11 @@ constexpr auto catalog = object(
     member("missions", names, "The scripts, in the order in which they ran.",
            &CatalogCoverage::missions)
         .on_line(),
+    optional("incomplete", always_true,
+             "With --prove: a limit or an interrupt ended the proof, so that goals that are not "
+             "marked as unreachable may be so all the same.",
+             [](const CatalogCoverage& of) { return !of.is_proved(); })
+        .on_line(),
     optional("assumptions", assumptions, "With --prove: under which goals are proven unreachable.",
              &CatalogCoverage::assumptions)
         .on_line(),

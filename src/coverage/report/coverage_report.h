@@ -22,6 +22,11 @@
 
 namespace cbc {
 
+inline constexpr std::string_view incomplete_proof =
+    "incomplete: a limit or an interrupt ended the proof, and goals that nothing is proven of may "
+    "be "
+    "impossible";
+
 /// The goals of each section, met and missed.
 [[nodiscard]] Table counts_table(const CatalogCoverage& coverage, const Style& style);
 
@@ -62,7 +67,8 @@ struct WrittenMissions {
   std::span<const Goal> goals;
   std::optional<std::uint64_t> missions;  ///< that were there; empty: none were named
   const MissingMissions* missing = nullptr;
-  std::vector<std::string> paths;  ///< by script
+  std::string incomplete;          ///< what ended the work, and where; empty: nothing did
+  std::vector<std::string> paths;  ///< by script; empty if they were not written
   std::string next;  ///< the command that looks at what the scripts leave; may be empty
 };
 
@@ -81,11 +87,11 @@ struct MutantCount {
   std::uint64_t without_script = 0;  ///< of these: see MutantVerdict::Doubt
   std::uint64_t unjudged = 0;
 
-  /// Of those that a mission could notice, how many one does.
-  [[nodiscard]] GoalCount score() const { return {noticed + survived, noticed, 0}; }
-  /// Whether the score says anything: some count, or it is known that none does.
-  [[nodiscard]] bool is_score_known() const { return score().goals > 0 || is_complete(); }
-  /// Whether it is known of all whether they count.
+  /// How many are noticed, of all but those that no mission can notice.
+  [[nodiscard]] GoalCount score() const {
+    return {noticed + survived + undecided + unjudged, noticed, 0};
+  }
+  /// Whether it is known of all whether a mission can notice them.
   [[nodiscard]] bool is_complete() const { return undecided + unjudged == 0; }
 };
 

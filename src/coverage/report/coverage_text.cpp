@@ -47,6 +47,10 @@ void add_catalog(const CatalogCoverage& coverage, Text& text) {
     text.add(assumptions_to_text(coverage.catalog(), *coverage.assumptions(), text.columns()));
   }
   text.add("\n" + counts_table(coverage, text.style()).text());
+  if (!coverage.is_proved()) {
+    text.line("");
+    text.line(incomplete_proof);
+  }
   add_list(coverage, "no mission shows that", &CatalogCoverage::is_missed, text);
   add_list(coverage, "under these assumptions no mission can show, and so it does not count, that",
            &CatalogCoverage::is_unreachable, text);
@@ -185,7 +189,8 @@ void list_goals(const WrittenMissions& tests, const char* heading,
 
 std::string count_tests(const MissingMissions& missing) {
   if (missing.missions.empty()) {
-    return missing.unmet.empty() ? "nothing is missing" : "no test was found";
+    return missing.unmet.empty() && missing.is_complete() ? "nothing is missing"
+                                                          : "no test was found";
   }
   std::uint64_t events = 0;
   for (const MissingMissions::Mission& mission : missing.missions) events += mission.events;
@@ -224,15 +229,25 @@ std::string written_missions_to_text(const WrittenMissions& tests, std::size_t c
   text.line("");
   text.line(count_tests(missing));
   Table files(text.style(), {{}, {}});
-  for (std::size_t place = 0; place < missing.missions.size(); ++place) {
+  for (std::size_t place = 0; place < tests.paths.size(); ++place) {
     const MissingMissions::Mission& mission = missing.missions[place];
     files.add({printable(tests.paths[place]),
                quantity(mission.events, "event") + "  " + quantity(mission.goals.size(), "goal")});
   }
   text.add(files.text());
+  if (!tests.incomplete.empty()) {
+    text.line("");
+    text.line("incomplete: " + tests.incomplete);
+  }
   for (const GroupId group : missing.partial) {
+    if (group >= missing.unexplored) continue;
     text.line("");
     text.line("a limit ended the exploration of group {}: what it has beyond is not known", group);
+  }
+  if (missing.unexplored < tests.catalog->group_count()) {
+    const std::size_t left = tests.catalog->group_count() - missing.unexplored;
+    text.line("");
+    text.line("{} {} not explored", quantity(left, "group"), left == 1 ? "was" : "were");
   }
   list_goals(tests, "no test shows that", missing.unmet, text);
   list_goals(tests, "under these assumptions no test can show that", missing.unreachable, text);

@@ -60,13 +60,18 @@ void add_survivors(const MutantsResult& result, Text& text) {
 
 /// What counts, and what does not.
 void add_summary(const MutantCount& count, Text& text) {
-  std::string counts = fmt::format("mutants: {} noticed, {} survived, {} equivalent", count.noticed,
-                                   count.survived, count.equivalent);
-  if (count.undecided > 0) counts += fmt::format(", {} undecided", count.undecided);
-  if (count.unjudged > 0) counts += fmt::format(", {} not judged", count.unjudged);
+  std::string unknown;
+  if (count.undecided > 0) unknown += fmt::format(", {} undecided", count.undecided);
+  if (count.unjudged > 0) unknown += fmt::format(", {} not judged", count.unjudged);
   text.line("");
-  text.line(counts);
-  text.line("score: {}", count.is_score_known() ? describe_percent(count.score()) : "unknown");
+  text.line("mutants: {} noticed, {} survived, {} equivalent{}", count.noticed, count.survived,
+            count.equivalent, unknown);
+  const GoalCount score = count.score();
+  std::string line = "score: " + describe_percent(score);
+  if (!count.is_complete()) {
+    line += fmt::format(" ({} of {}; {})", score.met, score.goals, unknown.substr(2));
+  }
+  text.line(line);
   if (const std::uint64_t limited = count.undecided - count.without_script; limited > 0) {
     text.line(
         "undecided: a limit came before it was known whether a mission could notice {}; see "
@@ -267,55 +272,47 @@ constexpr auto counts = group(
            &MutantCount::equivalent),
     member("undecided", count,
            "Number of those that no mission notices, and of which it is not known whether one "
-           "could. They do not count.",
+           "could. They count as not noticed.",
            &MutantCount::undecided),
-    member("unjudged", count,
-           "Number of those that were left when a time limit or a signal ended the work. They do "
-           "not count.",
-           &MutantCount::unjudged),
-    optional("percent", percentage,
-             "Percentage of the mutants that count, rounded down to tenths, that are noticed; 100 "
-             "of none. Missing if none was judged.",
-             [](const MutantCount& of) {
-               return of.is_score_known()
-                          ? std::optional(static_cast<double>(of.score().tenths()) / 10)
-                          : std::nullopt;
-             }));
+    member(
+        "unjudged", count,
+        "Number of those that were left when a time limit or a signal ended the work. They count "
+        "as not noticed.",
+        &MutantCount::unjudged),
+    member("percent", percentage,
+           "Percentage of the mutants that are noticed, rounded down to tenths: of all but those "
+           "that are equivalent. Those that are undecided or unjudged count as not noticed. 100 of "
+           "none.",
+           [](const MutantCount& of) { return static_cast<double>(of.score().tenths()) / 10; }));
 
-constexpr auto report =
-    object(
-        "",
-        "The output of `cbc coverage --mutants --format json` (schema cbc.mutants/1): which "
-        "changes "
-        "of a "
-        "catalog its missions notice. docs/coverage.md says what is changed.",
-        schema_member("cbc.mutants/1"),
-        member(
-            "catalog", text, "The catalog, as given.",
-            [](const MutantsResult& of) -> const auto& { return of.catalog->file; }),
-        member("missions", texts.at_least(1), "The scripts, in the order in which they ran.",
-               &MutantsResult::missions)
-            .on_line(),
-        member("assumptions",
-               scoped(
-                   [](const auto&, const MutantsResult& of) -> const auto& { return *of.compiled; },
-                   assumptions),
-               "Under which no mission can notice those that are equivalent.",
-               &MutantsResult::assumptions)
-            .on_line(),
-        part(&MutantsResult::count, counts),
-        member("mutants", list(mutant).on_lines(), "All mutants, by line.",
-               [](const MutantsResult& of) {
-                 return [&of](const auto& put) {
-                   for (std::size_t place = 0; place < of.mutants.size(); ++place) put(place);
-                 };
-               })
-            .on_line())
-        .related(R"([{
-      "if": {"anyOf": [
-        {"not": {"properties": {"noticed": {"const": 0}, "survived": {"const": 0}}}},
-        {"properties": {"undecided": {"const": 0}, "unjudged": {"const": 0}}}]},
-      "then": {"required": ["percent"]}}])");
+constexpr auto report = object(
+    "",
+    "The output of `cbc coverage --mutants --format json` (schema cbc.mutants/1): which "
+    "changes "
+    "of a "
+    "catalog its missions notice. docs/coverage.md says what is changed.",
+    schema_member("cbc.mutants/1"),
+    member(
+        "catalog", text, "The catalog, as given.",
+        [](const MutantsResult& of) -> const auto& { return of.catalog->file; }),
+    member("missions", texts.at_least(1), "The scripts, in the order in which they ran.",
+           &MutantsResult::missions)
+        .on_line(),
+    member("assumptions",
+           scoped(
+               [](const auto&, const MutantsResult& of) -> const auto& { return *of.compiled; },
+               assumptions),
+           "Under which no mission can notice those that are equivalent.",
+           &MutantsResult::assumptions)
+        .on_line(),
+    part(&MutantsResult::count, counts),
+    member("mutants", list(mutant).on_lines(), "All mutants, by line.",
+           [](const MutantsResult& of) {
+             return [&of](const auto& put) {
+               for (std::size_t place = 0; place < of.mutants.size(); ++place) put(place);
+             };
+           })
+        .on_line());
 
 }  // namespace json::mutants
 

@@ -175,21 +175,36 @@ std::optional<std::string> find_distinguishing_script(const CompiledCatalog& ori
   return std::nullopt;
 }
 
-/// Whether other timeouts always come before these: then they never end anything.
-bool never_time_out(const CompiledCatalog& catalog, const std::vector<TimeDifference>& differences,
-                    const Assumptions& assumptions, const ExplorationOptions& limited) {
-  const GroupId group = catalog.tasks[catalog.task_ids[differences.front().task]].group;
+ExplorationOptions exploration_options(const MutantJudge::Limits& limits) {
+  ExplorationOptions options;
+  options.limits = {limits.max_states, limits.max_memory, 0};
+  options.reduce = true;
+  options.on_progress = [&limits](const std::vector<GroupId>& /*groups*/,
+                                  const ExplorationProgress& /*progress*/) {
+    return !limits.is_stopped || !limits.is_stopped();
+  };
+  return options;
+}
+
+/// Visits a group once more, for what is known of its timeouts.
+GoalProof visit_group(const CompiledCatalog& catalog, GroupId group, const Assumptions& assumptions,
+                      const MutantJudge::Limits& limits) {
   GoalProofOptions options;
   options.group = group;
-  options.search.max_states = limited.limits.max_states;
-  if (limited.limits.max_memory > 0) {
-    options.search.max_memory = std::min(options.search.max_memory, limited.limits.max_memory);
+  if (limits.max_states > 0) options.search.max_states = limits.max_states;
+  if (limits.max_memory > 0) {
+    options.search.max_memory = std::min(options.search.max_memory, limits.max_memory);
   }
   options.search.on_progress = [&](std::uint32_t, std::uint64_t) {
-    return limited.on_progress({}, {});
+    return !limits.is_stopped || !limits.is_stopped();
   };
-  const GoalProof proof = prove_unreachable(catalog, {}, assumptions, options);
-  if (proof.error || !proof.groups[group].is_complete) return false;
+  return prove_unreachable(catalog, {}, assumptions, options);
+}
+
+/// Whether other timeouts always come before these: then they never end anything. The proof is
+/// complete.
+bool never_time_out(const CompiledCatalog& catalog, const std::vector<TimeDifference>& differences,
+                    const GoalProof& proof) {
   return std::all_of(differences.begin(), differences.end(), [&](const TimeDifference& difference) {
     const TaskId task = catalog.task_ids[difference.task];
     const BehaviorId behavior = catalog.behavior_ids[difference.behavior];
@@ -199,6 +214,13 @@ bool never_time_out(const CompiledCatalog& catalog, const std::vector<TimeDiffer
     return timeout_of(catalog, task, behavior) == 0 || proof.facts.performed[value] == 0 ||
            proof.facts.forestalled_by[value] != none;
   });
+}
+
+/// A limit came before it was known.
+void give_up(const std::optional<ExplorationEnd>& end, MutantVerdict& verdict) {
+  verdict.result = MutantVerdict::Result::undecided;
+  verdict.doubt = MutantVerdict::Doubt::limit;
+  verdict.lacks_memory = end == ExplorationEnd::max_memory;
 }
 
 }  // namespace
@@ -249,43 +271,41 @@ std::optional<Notice> find_notice(const CompiledCatalog& catalog, const Script& 
 }
 
 MutantJudge::MutantJudge(const Catalog& source, const CompiledCatalog& catalog,
-                         const std::vector<Script>& missions, Assumptions assumptions,
-                         JudgeOptions options)
+                         const std::vector<Script>& missions, Assumptions assumptions)
     : source_(source),
       catalog_(catalog),
       missions_(missions),
-      assumptions_(std::move(assumptions)),
-      options_(std::move(options)) {}
+      assumptions_(std::move(assumptions)) {}
 
-MutantVerdict MutantJudge::judge(const Mutant& mutant) const {
+MutantVerdict MutantJudge::run_missions(const Mutant& mutant,
+                                        const std::function<bool()>& is_stopped) const {
   MutantVerdict verdict;
-  const Catalog changed_source = mutate(source_, mutant);
-  const CompiledCatalog changed = compile(changed_source);
+  const auto is_over = [&] { return is_stopped && is_stopped(); };
+  if (is_over()) return verdict;
+  const CompiledCatalog changed = compile(mutate(source_, mutant));
   for (std::size_t mission = 0; mission < missions_.size(); ++mission) {
-    if (is_stopped()) return verdict;
-    verdict.notice = find_notice(changed, missions_[mission], options_.is_stopped);
+    if (is_over()) return verdict;
+    verdict.notice = find_notice(changed, missions_[mission], is_stopped);
     if (!verdict.notice) continue;
     verdict.notice->mission = mission;
     verdict.result = MutantVerdict::Result::noticed;
     return verdict;
   }
-  if (is_stopped()) return verdict;
-  if (mutant.kind == Mutant::Kind::timeout_removed ||
-      mutant.kind == Mutant::Kind::execution_goal_turned) {
-    compare_times(mutant, changed_source, changed, verdict);
-  } else {
-    compare(mutant, changed, verdict);
-  }
+  if (!is_over()) verdict.result = MutantVerdict::Result::undecided;
   return verdict;
 }
 
-ExplorationOptions MutantJudge::exploration_options() const {
-  ExplorationOptions options;
-  options.limits = options_.limits;
-  options.reduce = true;
-  options.on_progress = [this](const std::vector<GroupId>& /*groups*/,
-                               const ExplorationProgress& /*progress*/) { return !is_stopped(); };
-  return options;
+MutantVerdict MutantJudge::compare(const Mutant& mutant, const Limits& limits) const {
+  MutantVerdict verdict;
+  const Catalog changed_source = mutate(source_, mutant);
+  const CompiledCatalog changed = compile(changed_source);
+  if (mutant.kind == Mutant::Kind::timeout_removed ||
+      mutant.kind == Mutant::Kind::execution_goal_turned) {
+    compare_times(mutant, changed_source, changed, limits, verdict);
+  } else {
+    compare_states(mutant, changed, limits, verdict);
+  }
+  return verdict;
 }
 
 GroupId MutantJudge::group_of(const Mutant& mutant) const {
@@ -294,14 +314,14 @@ GroupId MutantJudge::group_of(const Mutant& mutant) const {
 }
 
 /// The original is the new catalog of the comparison, so that the script tells what it does.
-void MutantJudge::compare(const Mutant& mutant, const CompiledCatalog& changed,
-                          MutantVerdict& verdict) const {
+void MutantJudge::compare_states(const Mutant& mutant, const CompiledCatalog& changed,
+                                 const Limits& limits, MutantVerdict& verdict) const {
   const CatalogComparison found =
-      compare_catalogs(changed, catalog_, assumptions_, exploration_options(),
+      compare_catalogs(changed, catalog_, assumptions_, exploration_options(limits),
                        {ComparisonScope::Differences::expectable, group_of(mutant)});
-  if (found.result != Verdict::Result::violated) {
-    verdict.result = found.result == Verdict::Result::proved ? MutantVerdict::Result::equivalent
-                                                             : MutantVerdict::Result::undecided;
+  if (found.result == Verdict::Result::undecided) return give_up(found.end, verdict);
+  if (found.result == Verdict::Result::proved) {
+    verdict.result = MutantVerdict::Result::equivalent;
     return;
   }
   Script script = found.first_difference()->witness.script;
@@ -316,7 +336,8 @@ void MutantJudge::compare(const Mutant& mutant, const CompiledCatalog& changed,
 /// States have no times, so a difference between timeouts is none between states. It shows in every
 /// state in which such a behavior has begun, if one waits for the timeout.
 void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_source,
-                                const CompiledCatalog& changed, MutantVerdict& verdict) const {
+                                const CompiledCatalog& changed, const Limits& limits,
+                                MutantVerdict& verdict) const {
   const std::vector<TimeDifference> differences = find_time_differences(source_, changed_source);
   std::vector<Property> properties;
   for (const TimeDifference& difference : differences) {
@@ -339,7 +360,8 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
   if (differences.empty() || !assumptions_.failures) return;
   bool is_any_reachable = false;
   const std::vector<GroupId> groups = {group_of(mutant)};
-  const Exploration found = explore(catalog_, groups, assumptions_, asked, exploration_options());
+  const Exploration found =
+      explore(catalog_, groups, assumptions_, asked, exploration_options(limits));
   for (std::size_t place = 0; place < properties.size(); ++place) {
     if (!found.verdicts[place].has_script) continue;
     is_any_reachable = true;
@@ -353,14 +375,18 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
     verdict.result = MutantVerdict::Result::survived;
     return;
   }
-  const auto always_first = [&](const CompiledCatalog& catalog) {
-    return never_time_out(catalog, differences, assumptions_, exploration_options());
-  };
-  if (!found.complete) {
-    verdict.result = MutantVerdict::Result::undecided;
-  } else if (is_any_reachable && !(always_first(catalog_) && always_first(changed))) {
+  if (!found.complete) return give_up(found.end, verdict);
+  if (!is_any_reachable) return;
+  for (const CompiledCatalog* const catalog : {&catalog_, &changed}) {
+    const GroupId group = catalog->tasks[catalog->task_ids[differences.front().task]].group;
+    const GoalProof proof = visit_group(*catalog, group, assumptions_, limits);
+    if (!proof.error && !proof.groups[group].is_complete) {
+      return give_up(proof.groups[group].end, verdict);
+    }
+    if (!proof.error && never_time_out(*catalog, differences, proof)) continue;
     verdict.result = MutantVerdict::Result::undecided;
     verdict.doubt = MutantVerdict::Doubt::no_script;
+    return;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,6 @@
 #include "core/property/properties.h"
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "verify/engine/explore.h"
 
 namespace cbc {
 
@@ -101,6 +101,7 @@ struct MutantVerdict {
   };
   Result result = Result::unjudged;
   Doubt doubt = Doubt::limit;         ///< if it is undecided
+  bool lacks_memory = false;          ///< undecided as the memory was too small
   std::optional<Notice> notice;       ///< the first one, if it is noticed
   std::optional<std::string> script;  ///< of a survivor: a mission that would notice it
 };
@@ -109,36 +110,60 @@ struct MutantVerdict {
 [[nodiscard]] std::string_view name_of(MutantVerdict::Result result);
 [[nodiscard]] std::string_view name_of(MutantVerdict::Doubt doubt);
 
-struct JudgeOptions {
-  ExplorationLimits limits;  ///< of the exploration for one mutant; the time does not count
-  /// Asked now and then, perhaps by several threads at once; true ends the work. May be empty.
-  std::function<bool()> is_stopped;
-};
-
-/// Judges mutants, one after the other or several at once.
+/// Judges one mutant, also on several threads at once.
 class MutantJudge {
  public:
+  /// Of the comparison of one mutant with the catalog.
+  struct Limits {
+    std::uint64_t max_states = 0;  ///< 0: no limit
+    std::uint64_t max_memory = 0;  ///< bytes; 0: no limit
+    /// Asked now and then; true ends the comparison. May be empty.
+    std::function<bool()> is_stopped;
+  };
+
   /// `source` is what the catalog was compiled from; both, and the missions, must outlive the
   /// judge. All missions pass on the catalog. `assumptions`: which events a mission may have; the
   /// first state does not contradict them.
   MutantJudge(const Catalog& source, const CompiledCatalog& catalog,
-              const std::vector<Script>& missions, Assumptions assumptions, JudgeOptions options);
+              const std::vector<Script>& missions, Assumptions assumptions);
 
-  [[nodiscard]] MutantVerdict judge(const Mutant& mutant) const;
+  /// Runs the missions: the mutant is noticed, or undecided for now. Unjudged if it was stopped.
+  [[nodiscard]] MutantVerdict run_missions(const Mutant& mutant,
+                                           const std::function<bool()>& is_stopped) const;
+  /// Compares a mutant that no mission notices with the catalog.
+  [[nodiscard]] MutantVerdict compare(const Mutant& mutant, const Limits& limits) const;
 
  private:
-  [[nodiscard]] bool is_stopped() const { return options_.is_stopped && options_.is_stopped(); }
   [[nodiscard]] GroupId group_of(const Mutant& mutant) const;
-  void compare(const Mutant& mutant, const CompiledCatalog& changed, MutantVerdict& verdict) const;
+  void compare_states(const Mutant& mutant, const CompiledCatalog& changed, const Limits& limits,
+                      MutantVerdict& verdict) const;
   void compare_times(const Mutant& mutant, const Catalog& changed_source,
-                     const CompiledCatalog& changed, MutantVerdict& verdict) const;
-  [[nodiscard]] ExplorationOptions exploration_options() const;
+                     const CompiledCatalog& changed, const Limits& limits,
+                     MutantVerdict& verdict) const;
 
   const Catalog& source_;
   const CompiledCatalog& catalog_;
   const std::vector<Script>& missions_;
   const Assumptions assumptions_;
-  const JudgeOptions options_;
 };
+
+struct JudgingOptions {
+  std::uint64_t max_states = 0;  ///< of each comparison; 0: no limit
+  std::uint64_t max_memory = 0;  ///< bytes, of all comparisons at a time; 0: no limit
+  unsigned jobs = 1;             ///< mutants at a time
+  /// Asked now and then, perhaps by several threads at once; true ends the work. May be empty.
+  std::function<bool()> is_stopped;
+  /// How much time is left, of which each comparison gets its share. Empty: there is no limit.
+  std::function<double()> seconds_left;
+  /// Called now and then in this thread: `done` of `count` mutants have seen the missions, or have
+  /// been compared. May be empty.
+  std::function<void(bool is_compared, std::size_t done, std::size_t count)> on_progress;
+};
+
+/// Judges mutants: first all by the missions, which is quick, and then those that no mission
+/// notices by comparison. Without `seconds_left` the verdicts are the same for any number of jobs.
+[[nodiscard]] std::vector<MutantVerdict> judge_all(const MutantJudge& judge,
+                                                   std::span<const Mutant> mutants,
+                                                   const JudgingOptions& options);
 
 }  // namespace cbc
