@@ -41,6 +41,7 @@ int replay(SolveOptions options) {
   const auto catalog = files.load(options.paths.front());
   files.print_findings();
   if (catalog == nullptr) return exit_unusable;
+  if (options.stream.against) return replay_against(options, *catalog->compiled);
   int status = replay_stream(options, *catalog->compiled);
   if (status == exit_unusable) return status;
   if (options.stream.to_script) {

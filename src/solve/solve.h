@@ -31,6 +31,7 @@ struct StreamOptions {
   std::optional<std::string> state_out;
   std::optional<std::string> replay;
   std::optional<std::string> to_script;
+  bool against = false;              ///< the log is of another catalog
   std::string clock = "events";      ///< or "real"
   std::optional<std::string> serve;  ///< where a page shows the stream
 };
@@ -86,6 +87,9 @@ void tell_left_out(const std::string& page, std::uint64_t events);
 /// Runs the events of a recorded stream again, and compares the outputs, which are written only if
 /// the format is jsonl.
 [[nodiscard]] int replay_stream(const SolveOptions& options, const CompiledCatalog& catalog);
+/// Runs the events from outside of a log on a catalog that may be another one, and reports what is
+/// decided differently.
+[[nodiscard]] int replay_against(const SolveOptions& options, const CompiledCatalog& catalog);
 /// The same on the catalog that is the path; then reports the events in the format that is wanted,
 /// and writes them as a script.
 [[nodiscard]] int replay(SolveOptions options);

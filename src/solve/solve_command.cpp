@@ -157,6 +157,11 @@ void add_stream_options(Command& command, StreamOptions& options) {
       .option("--to-script", options.to_script, further_output("FILE"),
               "Write these events as a script")
       .only_with({"--replay"});
+  command.flag("--against", options.against, "The log is of another catalog: report what changes")
+      .only_with({"--replay"})
+      .not_with({"--html", "--to-script", "--why", "--alternatives", "--brief"},
+                "it reports differences alone")
+      .only_with_values("--format", {"text"});
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -33,6 +34,10 @@ struct SweepOptions {
   std::optional<std::string> slowest;
   std::optional<std::string> slowest_by_time;
   std::string format = "text";
+  std::optional<std::string> against;
+  std::vector<std::string> renamed;
+  bool allow_missing = false;
+  std::optional<std::string> scripts;
   std::optional<std::uint64_t> jobs;
   bool stats = false;
   SearchLimits search;
@@ -139,6 +144,29 @@ bool can_write_slowest(const SweepOptions& options) {
          (!options.slowest_by_time || can_write_output(*options.slowest_by_time));
 }
 
+/// Writes the script of each difference. Returns the exit status.
+int write_scripts(const SweptComparison& comparison, const SweepOptions& options) {
+  if (!options.scripts) return exit_ok;
+  if (const std::error_code error = make_folder(*options.scripts)) {
+    return complain("cannot make the folder {}: {}", quote(*options.scripts), error.message());
+  }
+  int status = exit_ok;
+  for (std::size_t place = 0; place < comparison.differences.size(); ++place) {
+    const std::filesystem::path file = std::filesystem::path(*options.scripts) /
+                                       fmt::format("difference-{}.mission.yaml", place + 1);
+    status = std::max(status, write_output(file.string(), comparison.differences[place].script));
+  }
+  return status;
+}
+
+/// The exit status of a comparison.
+int judge(const SweptComparison& comparison, const SweepOptions& options) {
+  const CatalogNames& names = comparison.names;
+  const bool is_missing = !names.only_old.empty() || !names.only_new.empty();
+  const bool is_alike = comparison.sequences == 0 && comparison.events > 0;
+  return is_alike && (!is_missing || options.allow_missing) ? exit_ok : exit_no;
+}
+
 int report(SweepResult result, const SweepOptions& options) {
   int status = write_slowest(options.slowest, result.slowest);
   if (options.slowest_by_time && !result.times) {
@@ -146,6 +174,12 @@ int report(SweepResult result, const SweepOptions& options) {
     status = exit_unusable;
   } else if (result.times) {
     status = std::max(status, write_slowest(options.slowest_by_time, result.times->slowest));
+  }
+  if (result.against) {
+    status = std::max(
+        {status, write_scripts(*result.against, options), judge(*result.against, options)});
+  } else if (options.scripts) {
+    return complain("--scripts: the shards were run without '--against'");
   }
   if (!options.stats && !options.merge) result.times.reset();
   const SweepFormat& format = *find_named(sweep_formats(), options.format);
@@ -181,14 +215,26 @@ int run_sweep(const SweepOptions& options) {
   if (options.merge) return merge(options);
   const std::shared_ptr<const CompiledCatalog> catalog = load_swept(options.paths);
   if (catalog == nullptr || !can_write_slowest(options)) return exit_unusable;
+  std::shared_ptr<const CompiledCatalog> old_catalog;
+  std::optional<OldVersion> old_version;
+  if (options.against) {
+    old_catalog = load_catalog(*options.against);
+    if (old_catalog == nullptr) return exit_unusable;
+    old_version.emplace(OldVersion{*old_catalog, {}});
+    const std::string fault =
+        add_renames(*old_catalog, *catalog, options.renamed, old_version->renames);
+    if (!fault.empty()) return usage_error("sweep", "--renamed: {}", fault);
+  }
   const SweepSettings settings = settings_of(options);
   const SequenceRange range = sequences_of(settings);
   Progress progress("sweeping", 1);
   progress.begin(std::string(catalog->file));
-  SweepOutcome outcome =
-      sweep(*catalog, settings, thread_count(options.jobs), [&](std::uint64_t done) {
+  SweepOutcome outcome = sweep(
+      *catalog, settings, thread_count(options.jobs),
+      [&](std::uint64_t done) {
         progress.show(fmt::format(" ({} %)", done * 100 / (range.end - range.first)));
-      });
+      },
+      old_version);
   progress.clear();
   if (outcome.failure) return report_failure(*outcome.failure, settings);
   return report(std::move(outcome.result), options);
@@ -197,10 +243,12 @@ int run_sweep(const SweepOptions& options) {
 constexpr const char* sweep_examples =
     "  cbc sweep robot.yaml                      random events and faults\n"
     "  cbc sweep robot.yaml --shard 1/8 --format json > 1.json   one of eight parts\n"
-    "  cbc sweep --merge *.json                  the result of all parts\n";
+    "  cbc sweep --merge *.json                  the result of all parts\n"
+    "  cbc sweep new.yaml --against old.yaml     what do they decide differently?\n";
 
 constexpr const char* sweep_footer =
-    "Exit status: 0 success, 2 the input or the usage is wrong, 3 an internal error (please report "
+    "Exit status: 0 success, 1 --against found a difference, 2 the input or the usage is wrong, 3 "
+    "an internal error (please report "
     "it).\n"
     "\n"
     "Read more: man cbc-sweep";
@@ -228,6 +276,22 @@ void add_sweep_command(Program& program) {
   command.flag("--merge", options->merge, "Merge the JSON results of all shards")
       .makes_arguments(ValueKind::shard);
   command.add_confinement();
+
+  command.group("Comparison");
+  command
+      .option("--against", options->against, input("OLD", ValueKind::catalog),
+              "Report what CATALOG and OLD decide differently")
+      .not_with({"--merge"}, "the shards were compared already");
+  command
+      .option("--renamed", options->renamed, old_and_new_name(),
+              "OLD is called NEW in CATALOG; repeatable")
+      .only_with({"--against"});
+  command
+      .flag("--allow-missing", options->allow_missing, "What only one of them has does not count")
+      .only_with({"--against", "--merge"});
+  command
+      .option("--scripts", options->scripts, folder(), "Write a script for each difference to DIR")
+      .only_with({"--against", "--merge"});
 
   command.group("Sequences");
   const auto add = [&](const char* name, auto& target, Values values, const char* help) {

@@ -292,14 +292,9 @@ class Call {
   }
 
   int read_renames() {
-    for (const std::string& entry : options_.renamed) {
-      const std::size_t equals = entry.find('=');
-      const std::string fault =
-          add_rename(*questions_.old_catalog, catalog_, std::string_view(entry).substr(0, equals),
-                     std::string_view(entry).substr(equals + 1), comparison_.renames);
-      if (!fault.empty()) return usage_error("verify", "--renamed: {}", fault);
-    }
-    return exit_ok;
+    const std::string fault =
+        add_renames(*questions_.old_catalog, catalog_, options_.renamed, comparison_.renames);
+    return fault.empty() ? exit_ok : usage_error("verify", "--renamed: {}", fault);
   }
 
   [[nodiscard]] std::size_t count_explorations() const {

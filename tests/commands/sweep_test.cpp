@@ -207,7 +207,7 @@ void expect_recounted(const CompiledCatalog& catalog, const SweepSettings& setti
   Recount recount(catalog);
   for (std::uint64_t sequence = 0; sequence < settings.sequences; ++sequence) {
     recount.begin_sequence();
-    const auto steps = steps_of_sequence(catalog, settings, sequence, 0);
+    const auto steps = steps_of_sequence(catalog, DrawnNames(catalog), settings, sequence, 0);
     EXPECT_EQ(steps.size(), settings.shape.events);
     const Script script = read(catalog, write_script(catalog, script_of(steps), ""));
     EXPECT_EQ(run_script(catalog, script, {}, recount).status, Coordinator::Status::ok);
@@ -275,7 +275,7 @@ TEST(Sweep, KeepsToItsShape) {
   }
   EXPECT_EQ(scripted, 50U * 17U);  // none is a failure or a fault
   for (std::uint64_t sequence = 0; sequence < 50; ++sequence) {
-    for (const Step& step : steps_of_sequence(catalog, settings, sequence, 0)) {
+    for (const Step& step : steps_of_sequence(catalog, DrawnNames(catalog), settings, sequence, 0)) {
       EXPECT_EQ(step.priority.value_or(1), 1);
     }
   }
@@ -294,7 +294,7 @@ behaviors:
   SweepSettings settings;
   settings.shape.events = 400;  // one of 16 starts has parameters
   const std::string script =
-      write_script(catalog, script_of(steps_of_sequence(catalog, settings, 0, 0)), "");
+      write_script(catalog, script_of(steps_of_sequence(catalog, DrawnNames(catalog), settings, 0, 0)), "");
   EXPECT_NE(script.find("\"p\":0.5}"), std::string::npos) << script;
   EXPECT_NE(script.find("\"p\":1000.0}"), std::string::npos) << script;
   EXPECT_EQ(script.find("0.50"), std::string::npos);

@@ -93,11 +93,13 @@ function isOptional(object, name) {
   if (name === 'error') return 'events' in object; // of a run; not of a line
   if (name === 'notes') return 'conflict' in object; // of a failed expectation; not of a report of lint
   const others = [
+    'against',
     'alternatives',
     'assumptions',
     'best',
     'complete_order',
     'due',
+    'incomplete',
     'parameters',
     'priority',
     'state',

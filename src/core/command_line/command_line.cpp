@@ -34,6 +34,24 @@ std::string suggest(std::string_view name, const std::vector<std::string>& known
 
 }  // namespace
 
+Values pair_of_words(const std::string& placeholder, std::string expected,
+                     const std::string& example) {
+  Values values;
+  values.placeholder = placeholder;
+  values.expected = std::move(expected);
+  values.check = [placeholder, example](const std::string& text) -> std::string {
+    const std::size_t equals = text.find('=');
+    if (equals != 0 && equals != std::string::npos && equals + 1 < text.size()) return {};
+    return fmt::format("expected {}, such as {}, found {}", placeholder, example, quote(text));
+  };
+  return values;
+}
+
+Values old_and_new_name() {
+  return pair_of_words("OLD=NEW", "the names of a task, behavior or variable in both catalogs",
+                       "LAND=DESCEND");
+}
+
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (std::size_t begin = 0; begin <= text.size(); begin += parts.back().size() + 1) {

@@ -81,6 +81,12 @@ struct Values {
 /// Such a value as it is written: "50 %", "99.5 %".
 [[nodiscard]] std::string describe_percent(const std::string& percent);
 
+/// Of two words with an equals sign between them.
+[[nodiscard]] Values pair_of_words(const std::string& placeholder, std::string expected,
+                                   const std::string& example);
+/// Of a name in an older catalog and one in a newer catalog, for what was renamed.
+[[nodiscard]] Values old_and_new_name();
+
 /// The parts between separators; at least one, which may be empty.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 /// "text, json or gcc"; words with blanks are quoted.

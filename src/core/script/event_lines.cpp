@@ -95,7 +95,8 @@ std::optional<EventLog::Header> EventLog::read_header(std::string_view line) {
     const std::string expected = to_hex(identity_of(catalog_));
     if (reporter.errors() == 0 && digest != expected) {
       error_ = "it was made with another catalog, with the digest " + quote(digest) + "; that of " +
-               quote(catalog_.file) + " is " + expected;
+               quote(catalog_.file) + " is " + expected +
+               "; --replay LOG CATALOG --against compares what both decide";
       return std::nullopt;
     }
     header.catalog = text_of(*root, "catalog", reporter);

@@ -10,58 +10,17 @@
 #include <string_view>
 #include <vector>
 
-#include "cbc/units.h"
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
 #include "runtime/explain/reasons.h"
+#include "sweep/engine/draw.h"
 
 namespace cbc {
 
-// Random event sequences: how they are drawn and run, and what is counted in them.
-
-/// Random numbers that are the same on every machine (SplitMix64). The standard distributions
-/// differ between implementations of the library, so this class has its own.
-class RandomSource {
- public:
-  /// Each pair of numbers gives an independent source.
-  RandomSource(std::uint64_t seed, std::uint64_t stream)
-      : state_(mix(mix(seed + increment) + stream)) {}
-
-  [[nodiscard]] std::uint64_t next() {
-    state_ += increment;
-    return mix(state_);
-  }
-  /// A number from 0 to bound - 1; `bound` is over 0.
-  [[nodiscard]] std::uint32_t below(std::uint32_t bound) {
-    return static_cast<std::uint32_t>(((next() >> 32U) * bound) >> 32U);
-  }
-  /// Whether something happens whose probability is this many millionths.
-  [[nodiscard]] bool happens(std::uint32_t millionths) { return below(1'000'000) < millionths; }
-
- private:
-  static constexpr std::uint64_t increment = 0x9e3779b97f4a7c15U;
-
-  [[nodiscard]] static std::uint64_t mix(std::uint64_t value) {
-    value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9U;
-    value = (value ^ (value >> 27U)) * 0x94d049bb133111ebU;
-    return value ^ (value >> 31U);
-  }
-
-  std::uint64_t state_;
-};
-
-/// What the random event sequences of a sweep look like.
-struct SweepShape {
-  std::uint32_t events = 100;     ///< scripted ones in each sequence; clock events are extra
-  std::int32_t priorities = 3;    ///< requests have priorities from 1 to this number
-  Millionths failures = 300'000;  ///< probability that a finish is a failure
-  Millionths faults = 100'000;    ///< probability that an event is a situation, fault or repair
-
-  bool operator==(const SweepShape&) const = default;
-};
+// Random event sequences: how they are run, and what is counted in them.
 
 /// The search options of a sweep: those of the coordinator that do not depend on the clock of the
 /// machine.
@@ -91,49 +50,15 @@ struct SweepSettings {
   SweepShard shard;
 };
 
-/// Draws the events of one random sequence to suit the state of the coordinator that handled the
-/// previous ones.
-class EventGenerator {
- public:
-  /// `catalog` must outlive this object.
-  EventGenerator(const CompiledCatalog& catalog, const SweepShape& shape, std::uint64_t seed,
-                 std::uint64_t sequence);
-
-  /// The instant of the next event.
-  [[nodiscard]] Microseconds draw_time(const Coordinator& coordinator);
-  /// Draws the next event at this instant. The step already has its time.
-  void draw_event(const State& state, Step& step);
-
- private:
-  void draw_start(Step& step);
-  void draw_stop(Step& step);
-  void draw_finish(const State& state, Step& step);
-  void draw_surroundings(const State& state, Step& step);
-  void mend(Step& step);
-  void break_something(const State& state, Step& step);
-  void draw_parameters(Step& step);
-  [[nodiscard]] VariableValue draw_variable(const State& state);
-  [[nodiscard]] std::uint32_t any_active(const State& state);
-  [[nodiscard]] std::int32_t draw_priority();
-  [[nodiscard]] std::uint32_t below(std::size_t bound) {
-    return random_.below(static_cast<std::uint32_t>(bound));
-  }
-
-  const CompiledCatalog& catalog_;
-  const SweepShape shape_;
-  RandomSource random_;
-  std::uint32_t first_task_;                ///< the one started most often
-  std::vector<std::uint32_t> faulty_;       ///< behaviors, by their places in the catalog
-  std::vector<std::uint32_t> unavailable_;  ///< the same
-  std::uint32_t lost_ = none;  ///< an active behavior that became unavailable and finishes next
-  std::vector<std::uint32_t> running_;
-};
-
 /// Receives every event of a sequence, with the state after it.
 class SequenceListener {
  public:
   virtual ~SequenceListener() = default;
   virtual void on_event(const EventRecord& record, const State& state) = 0;
+  /// Before the next step, after all that was due before this time.
+  virtual void on_time(Microseconds /*time*/, const State& /*state*/) {}
+  /// After the step was handled.
+  virtual void on_step(const Step& /*step*/, const State& /*state*/) {}
 };
 
 struct SequenceEnd {
@@ -142,15 +67,18 @@ struct SequenceEnd {
 };
 
 /// Runs one random sequence from the start, as its script would run.
-[[nodiscard]] SequenceEnd run_sequence(const CompiledCatalog& catalog,
+[[nodiscard]] SequenceEnd run_sequence(const CompiledCatalog& catalog, const DrawnNames& names,
                                        const SweepSettings& settings, std::uint64_t sequence,
                                        SequenceListener& listener);
 
 /// The steps of a sequence up to the one that completes event `index`; all of them if it never
 /// happens.
 [[nodiscard]] std::vector<Step> steps_of_sequence(const CompiledCatalog& catalog,
+                                                  const DrawnNames& names,
                                                   const SweepSettings& settings,
                                                   std::uint64_t sequence, std::uint64_t index);
+
+[[nodiscard]] CoordinatorOptions coordinator_options(const SweepSearch& search);
 
 /// The options of `cbc solve` with which a script runs as in the sweep: " --max-nodes 5".
 [[nodiscard]] std::string options_for_script(const SweepSearch& search);

@@ -16,6 +16,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -63,10 +64,14 @@ std::optional<std::string> SweepMerger::add(SweepResult shard, const std::string
   }
   // The paths of the catalog may differ. That of the lowest shard counts, so that the order of the
   // shards does not matter.
-  if (index < files_.begin()->first) merged_.catalog = std::move(shard.catalog);
+  if (index < files_.begin()->first) {
+    merged_.catalog = std::move(shard.catalog);
+    if (merged_.against) merged_.against->old_catalog = shard.against->old_catalog;
+  }
   files_[index] = file;
   merged_.counts.add(shard.counts);
   merged_.nodes.add(shard.nodes);
+  if (merged_.against) merged_.against->add(std::move(*shard.against));
   keep_slower(merged_.slowest, std::move(shard.slowest));
   if (merged_.times) {
     merged_.times->elapsed += shard.times->elapsed;
@@ -85,6 +90,12 @@ std::optional<std::string> SweepMerger::find_difference(const SweepResult& shard
   };
   if (shard.version != merged_.version) {
     return differs("version of cbc", quote(shard.version), quote(merged_.version));
+  }
+  if (shard.against.has_value() != merged_.against.has_value()) {
+    return "only one of them was made with '--against'";
+  }
+  if (shard.against && shard.against->old_digest != merged_.against->old_digest) {
+    return "it is against another catalog";
   }
   if (shard.digest != merged_.digest || shard.task_names != merged_.task_names ||
       shard.behavior_names != merged_.behavior_names) {
@@ -159,20 +170,37 @@ struct Totals {
 /// Counts the events of one thread.
 class Tally final : public SequenceListener {
  public:
-  explicit Tally(const CompiledCatalog& catalog)
+  Tally(const CompiledCatalog& catalog, const ComparedCatalogs* compared,
+        const SweepSettings& settings)
       : catalog_(catalog), was_running_(catalog.tasks.size()) {
+    if (compared != nullptr) {
+      comparison_ =
+          std::make_unique<SequenceComparison>(*compared, coordinator_options(settings.search));
+    }
     totals_.counts = SweepCounts(catalog.tasks.size(), catalog.behaviors.size());
   }
 
   [[nodiscard]] const Totals& totals() const { return totals_; }
+  /// Null if there is none.
+  [[nodiscard]] const SequenceComparison* comparison() const { return comparison_.get(); }
 
   void begin(std::uint64_t sequence) {
     sequence_ = sequence;
+    if (comparison_ != nullptr) comparison_->begin(sequence);
     std::fill(was_running_.begin(), was_running_.end(), std::uint8_t{0});
     event_began_ = Clock::now();
   }
 
+  void on_time(Microseconds time, const State& state) override {
+    if (comparison_ != nullptr) comparison_->on_time(time, state);
+    event_began_ = Clock::now();
+  }
+  void on_step(const Step& step, const State& state) override {
+    if (comparison_ != nullptr) comparison_->on_step(step, state);
+    event_began_ = Clock::now();
+  }
   void on_event(const EventRecord& record, const State& state) override {
+    if (comparison_ != nullptr) comparison_->on_new_event(record);
     if (record.search != nullptr) add_costs(record, Clock::now() - event_began_);
     totals_.counts.add(catalog_, record);
     // NOLINTNEXTLINE(clang-analyzer-core.*): what is accepted was searched for
@@ -208,19 +236,48 @@ class Tally final : public SequenceListener {
   }
 
   const CompiledCatalog& catalog_;
+  std::unique_ptr<SequenceComparison> comparison_;
   Totals totals_;
   std::vector<std::uint8_t> was_running_;  ///< by task
   std::uint64_t sequence_ = 0;
   Clock::time_point event_began_;
 };
 
+/// What is swept.
+struct Swept {
+  const CompiledCatalog& catalog;
+  const DrawnNames& names;
+  const SweepSettings& settings;
+
+  [[nodiscard]] std::vector<Step> steps_of(std::uint64_t sequence, std::uint64_t index) const {
+    return steps_of_sequence(catalog, names, settings, sequence, index);
+  }
+  [[nodiscard]] std::string script_of(std::vector<Step> steps, const std::string& comment) const {
+    Script script;
+    script.steps = std::move(steps);
+    return write_script(catalog, script,
+                        fmt::format("{}Run it with: cbc solve CATALOG FILE{}\n", comment,
+                                    options_for_script(settings.search)));
+  }
+};
+
+/// Runs a sequence, on both catalogs if there are two.
+SequenceEnd run(const Swept& swept, std::uint64_t sequence, Tally& tally) {
+  tally.begin(sequence);
+  SequenceEnd end = run_sequence(swept.catalog, swept.names, swept.settings, sequence, tally);
+  const SequenceComparison* const comparison = tally.comparison();
+  if (comparison != nullptr && end.status == Coordinator::Status::ok) {
+    end = {comparison->status(), comparison->internal_error()};
+  }
+  return end;
+}
+
 /// What the threads share.
 class Work {
  public:
-  Work(const CompiledCatalog& catalog, const SweepSettings& settings)
-      : catalog_(catalog),
-        settings_(settings),
-        range_(sequences_of(settings)),
+  explicit Work(const Swept& swept)
+      : swept_(swept),
+        range_(sequences_of(swept.settings)),
         next_(range_.first),
         failed_(range_.end) {}
 
@@ -231,10 +288,7 @@ class Work {
       // Sequences before the first failure still run, so that it is the first one with any number
       // of threads.
       if (sequence >= failed_.load()) return;
-      tally.begin(sequence);
-      if (run_sequence(catalog_, settings_, sequence, tally).status != Coordinator::Status::ok) {
-        note_failure(sequence);
-      }
+      if (run(swept_, sequence, tally).status != Coordinator::Status::ok) note_failure(sequence);
       if (progress) progress(std::min(next_.load(), range_.end) - range_.first);
     }
   }
@@ -250,8 +304,7 @@ class Work {
     }
   }
 
-  const CompiledCatalog& catalog_;
-  const SweepSettings& settings_;
+  const Swept swept_;
   const SequenceRange range_;
   std::atomic<std::uint64_t> next_;
   std::atomic<std::uint64_t> failed_;  ///< the first sequence that failed, or the end
@@ -263,8 +316,7 @@ std::string describe(const CompiledCatalog& catalog, const Candidate& candidate)
   return fmt::format("{} {}", name_of(candidate.verb), printable(names[candidate.subject]));
 }
 
-std::optional<SlowestEvent> to_slowest(const CompiledCatalog& catalog,
-                                       const SweepSettings& settings,
+std::optional<SlowestEvent> to_slowest(const Swept& swept,
                                        const std::optional<Candidate>& candidate,
                                        std::string_view measure) {
   if (!candidate) return std::nullopt;
@@ -272,29 +324,53 @@ std::optional<SlowestEvent> to_slowest(const CompiledCatalog& catalog,
   slowest.sequence = candidate->sequence + 1;
   slowest.event = candidate->event;
   slowest.cost = candidate->cost;
-  slowest.what = describe(catalog, *candidate);
+  slowest.what = describe(swept.catalog, *candidate);
   const std::string comment = fmt::format(
       "Sequence {} of a sweep with seed {}, up to its slowest event by {}:\n"
-      "event {}, {}.\n"
-      "Run it with: cbc solve CATALOG FILE{}\n",
-      slowest.sequence, settings.seed, measure, slowest.event, slowest.what,
-      options_for_script(settings.search));
-  Script script;
-  script.steps = steps_of_sequence(catalog, settings, candidate->sequence, candidate->event);
-  slowest.script = write_script(catalog, script, comment);
+      "event {}, {}.\n",
+      slowest.sequence, swept.settings.seed, measure, slowest.event, slowest.what);
+  slowest.script = swept.script_of(swept.steps_of(candidate->sequence, candidate->event), comment);
   return slowest;
 }
 
-SweepFailure to_failure(const CompiledCatalog& catalog, const SweepSettings& settings,
-                        std::uint64_t sequence) {
-  Tally ignored(catalog);
-  const SequenceEnd end = run_sequence(catalog, settings, sequence, ignored);
+SweptComparison to_comparison(const Swept& swept, const ComparedCatalogs& compared,
+                              SequenceComparison::Totals totals) {
+  SweptComparison result;
+  result.old_catalog = compared.old_catalog.file;
+  result.names = compared.names;
+  result.events = totals.events;
+  result.sequences = totals.sequences;
+  for (auto& [line, found] : totals.found) {
+    std::vector<Step> steps = swept.steps_of(found.sequence, 0);
+    steps.resize(found.steps);
+    if (found.is_by_clock) {
+      Step wait;
+      wait.time = steps.back().time;
+      steps.back() = wait;
+    }
+    Step end;
+    end.time = steps.back().time;
+    end.expect = std::move(found.expectation);
+    steps.push_back(std::move(end));
+    const std::string comment = fmt::format(
+        "Sequence {} of a sweep with seed {}, up to where {} and {} differ:\n"
+        "{}\n"
+        "What is expected at the end is the answer of the former.\n",
+        found.sequence + 1, swept.settings.seed, printable(swept.catalog.file),
+        printable(compared.old_catalog.file), line);
+    result.differences.push_back({line, found.sequences, found.sequence + 1, found.steps,
+                                  swept.script_of(std::move(steps), comment)});
+  }
+  result.add({});  // in order
+  return result;
+}
+
+SweepFailure to_failure(const Swept& swept, std::uint64_t sequence, Tally& tally) {
+  const SequenceEnd end = run(swept, sequence, tally);
   const std::string comment =
-      fmt::format("Sequence {} of a sweep with seed {}.\nRun it with: cbc solve CATALOG FILE{}\n",
-                  sequence + 1, settings.seed, options_for_script(settings.search));
-  Script script;
-  script.steps = steps_of_sequence(catalog, settings, sequence, 0);
-  return {sequence + 1, end.status, end.internal_error, write_script(catalog, script, comment)};
+      fmt::format("Sequence {} of a sweep with seed {}.\n", sequence + 1, swept.settings.seed);
+  return {sequence + 1, end.status, end.internal_error,
+          swept.script_of(swept.steps_of(sequence, 0), comment)};
 }
 
 std::vector<std::string> to_strings(const Texts& names) {
@@ -313,19 +389,28 @@ SequenceRange sequences_of(const SweepSettings& settings) {
 }
 
 SweepOutcome sweep(const CompiledCatalog& catalog, const SweepSettings& settings, std::size_t jobs,
-                   const std::function<void(std::uint64_t)>& progress) {
+                   const std::function<void(std::uint64_t)>& progress,
+                   const std::optional<OldVersion>& old_version) {
   const Clock::time_point begin = Clock::now();
   const SequenceRange range = sequences_of(settings);
   const auto threads = std::clamp<std::uint64_t>(range.end - range.first, 1, jobs);
-  std::vector<Tally> tallies(threads, Tally(catalog));
-  Work work(catalog, settings);
+  std::optional<ComparedCatalogs> compared;
+  if (old_version) compared.emplace(old_version->catalog, catalog, old_version->renames);
+  const DrawnNames all_names(catalog);
+  const Swept swept{compared ? compared->new_catalog : catalog,
+                    compared ? compared->drawn : all_names, settings};
+  std::vector<Tally> tallies;
+  for (std::size_t place = 0; place < threads; ++place) {
+    tallies.emplace_back(swept.catalog, compared ? &*compared : nullptr, settings);
+  }
+  Work work(swept);
   run_in_threads(tallies.size(), [&](std::size_t place) {
     work.do_share(tallies[place], place == 0 ? progress : nullptr);
   });
 
   SweepOutcome outcome;
   if (const auto failed = work.failed()) {
-    outcome.failure = to_failure(catalog, settings, *failed);
+    outcome.failure = to_failure(swept, *failed, tallies.front());
     return outcome;
   }
   Totals all = tallies.front().totals();
@@ -339,10 +424,16 @@ SweepOutcome sweep(const CompiledCatalog& catalog, const SweepSettings& settings
   result.behavior_names = to_strings(catalog.behavior_names);
   result.counts = std::move(all.counts);
   result.nodes = std::move(all.nodes);
-  result.slowest = to_slowest(catalog, settings, all.most_nodes, "nodes");
+  result.slowest = to_slowest(swept, all.most_nodes, "nodes");
+  if (compared) {
+    SequenceComparison::Totals found;
+    for (const Tally& tally : tallies) found.add(tally.comparison()->totals());
+    result.against = to_comparison(swept, *compared, std::move(found));
+    result.against->old_digest = to_hex(identity_of(old_version->catalog));
+  }
   SweepTimes& times = result.times.emplace();
   times.events = std::move(all.times);
-  times.slowest = to_slowest(catalog, settings, all.most_time, "time");
+  times.slowest = to_slowest(swept, all.most_time, "time");
   times.elapsed = static_cast<std::uint64_t>(
       std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - begin).count());
   return outcome;

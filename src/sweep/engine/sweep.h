@@ -9,6 +9,7 @@
 
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/coordinator.h"
+#include "sweep/engine/against.h"
 #include "sweep/engine/sequence.h"
 
 namespace cbc {
@@ -42,6 +43,7 @@ struct SweepResult {
   Histogram nodes;                      ///< of the events that took a search
   std::optional<SlowestEvent> slowest;  ///< by nodes, the first of equal ones; empty: no search
   std::optional<SweepTimes> times;
+  std::optional<SweptComparison> against;  ///< with an older version
 };
 
 /// The sequences of a shard: from `first` up to `end`, from 0.
@@ -88,11 +90,19 @@ struct SweepOutcome {
   std::optional<SweepFailure> failure;
 };
 
-/// Runs random event sequences on a catalog that has tasks. The result, except for its times, does
+/// What to compare a sweep with.
+struct OldVersion {
+  const CompiledCatalog& catalog;
+  Renames renames;
+};
+
+/// Runs random event sequences on a catalog that has tasks; with an old version on both, with
+/// events about what both have. The result, except for its times, does
 /// not depend on the number of jobs (at least 1), and memory does not grow with the number of
 /// sequences. `progress` is called repeatedly, in this thread, with the number of sequences done.
 [[nodiscard]] SweepOutcome sweep(const CompiledCatalog& catalog, const SweepSettings& settings,
                                  std::size_t jobs,
-                                 const std::function<void(std::uint64_t)>& progress);
+                                 const std::function<void(std::uint64_t)>& progress,
+                                 const std::optional<OldVersion>& old_version = std::nullopt);
 
 }  // namespace cbc

@@ -347,6 +347,40 @@ constexpr auto unused = [](const std::vector<std::string>& names, const auto& co
   };
 };
 
+constexpr auto swept_difference = object(
+    "difference", "",
+    member("line", text, "What is decided differently, for people.", &SweptDifference::line),
+    member("sequences", place_from_1, "How many sequences show it.", &SweptDifference::sequences),
+    member("sequence", place_from_1,
+           "The sequence that shows it after the fewest events; of several the first.",
+           &SweptDifference::sequence),
+    member("events", place_from_1, "The number of these events.", &SweptDifference::events),
+    member("script", text,
+           "They, as an event script in YAML for `catalog`, which expects what that decides.",
+           &SweptDifference::script));
+
+constexpr auto against = optional(
+    "against",
+    object(
+        "against", "With --against: how an older version of the catalog decides these events.",
+        member("catalog", any_text, "The older version, as given.", &SweptComparison::old_catalog),
+        member("digest", digest, "Its digest.", &SweptComparison::old_digest),
+        part(&SweptComparison::names,
+             group(member("only_old", names, "What only the older one has, in words.",
+                          &CatalogNames::only_old),
+                   member("only_new", names, "What only the newer one has, in words.",
+                          &CatalogNames::only_new),
+                   member("renamed", names, "What is the same by --renamed, in words.",
+                          &CatalogNames::renamed))),
+        member("events", number_of_events,
+               "The number of starts, stops and finishes of the sequences that were compared.",
+               &SweptComparison::events),
+        member("sequences", number_of_events, "The number of sequences with a difference.",
+               &SweptComparison::sequences),
+        member("differences", list(swept_difference).on_lines(), "The most frequent first.",
+               &SweptComparison::differences)),
+    "", &SweepResult::against);
+
 constexpr std::string_view schema_name = "cbc.sweep/1";
 
 constexpr auto report = object(
@@ -400,7 +434,7 @@ constexpr auto report = object(
            "The first event with the most nodes; null if no event needed a search.",
            &SweepResult::slowest)
         .on_line(),
-    stats.on_line());
+    stats.on_line(), against.on_line());
 
 class Reader {
  public:

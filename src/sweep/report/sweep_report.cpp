@@ -161,16 +161,20 @@ void add_times(const SweepTimes& times, Text& text) {
 
 }  // namespace
 
+std::string describe(const SweepSettings& settings) {
+  return fmt::format(
+      "{} of {}, seed {}{}", quantity(settings.sequences, "sequence"),
+      quantity(settings.shape.events, "event"), settings.seed,
+      settings.shard.count > 1
+          ? fmt::format(", shard {}/{} of it", settings.shard.index, settings.shard.count)
+          : "");
+}
+
 std::string sweep_to_text(const SweepResult& result, const Style& style) {
-  const SweepSettings& settings = result.settings;
+  if (result.against) return against_to_text(result, style);
   Text text(style);
-  text.line("{}: {} of {}, seed {}{}",
-            style.paint(style.strong, "sweep of " + printable(result.catalog)),
-            quantity(settings.sequences, "sequence"), quantity(settings.shape.events, "event"),
-            settings.seed,
-            settings.shard.count > 1
-                ? fmt::format(", shard {}/{} of it", settings.shard.index, settings.shard.count)
-                : "");
+  text.line("{}: {}", style.paint(style.strong, "sweep of " + printable(result.catalog)),
+            describe(result.settings));
   text.line("");
   add_events(result, text);
   add_unused(

@@ -20,8 +20,12 @@ namespace cbc {
 /// cannot be understood, the second alternative says why, for people.
 [[nodiscard]] std::variant<SweepResult, std::string> sweep_from_json(std::string_view text);
 
-/// The result of a sweep for people.
+/// The result of a sweep for people. Of one against an older version only the comparison.
 [[nodiscard]] std::string sweep_to_text(const SweepResult& result, const Style& style);
+[[nodiscard]] std::string against_to_text(const SweepResult& result, const Style& style);
+
+/// "1000 sequences of 100 events, seed 1"
+[[nodiscard]] std::string describe(const SweepSettings& settings);
 
 /// A format of `cbc sweep`.
 struct SweepFormat {

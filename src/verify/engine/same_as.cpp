@@ -19,11 +19,11 @@
 
 #include <fmt/format.h>
 
+#include "core/compare/translation.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 #include "verify/engine/same_as_answers.h"
 #include "verify/engine/same_as_direct.h"
-#include "verify/engine/same_as_names.h"
 #include "verify/engine/same_as_pair.h"
 #include "verify/engine/stepper.h"
 

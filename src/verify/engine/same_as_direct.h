@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "core/compare/translation.h"
 #include "core/property/properties.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "verify/engine/explore.h"
 #include "verify/engine/same_as.h"
-#include "verify/engine/same_as_names.h"
 
 namespace cbc {
 

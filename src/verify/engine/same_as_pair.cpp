@@ -2,56 +2,8 @@
 
 #include <algorithm>
 #include <map>
-#include <memory>
-
-#include "runtime/base/disjoint_sets.h"
 
 namespace cbc {
-
-std::vector<GroupPair> join_groups(const CompiledCatalog& old_catalog,
-                                   const CompiledCatalog& new_catalog, const Translation& to_old) {
-  const auto count = static_cast<std::uint32_t>(new_catalog.group_count());
-  const auto old_count = static_cast<std::uint32_t>(old_catalog.group_count());
-  DisjointSets sets(std::size_t{count} + old_count);
-  for (TaskId task(0); task < new_catalog.tasks.size(); ++task) {
-    if (to_old.tasks[task] == none) continue;
-    sets.join(new_catalog.tasks[task].group, count + old_catalog.tasks[to_old.tasks[task]].group);
-  }
-  for (BehaviorId behavior(0); behavior < new_catalog.behaviors.size(); ++behavior) {
-    if (to_old.behaviors[behavior] == none) continue;
-    sets.join(new_catalog.group_of(behavior),
-              count + old_catalog.group_of(to_old.behaviors[behavior]));
-  }
-  const std::vector<std::uint32_t> numbers = sets.numbers();
-  std::map<std::uint32_t, GroupPair> pairs;
-  for (std::uint32_t place = 0; place < numbers.size(); ++place) {
-    GroupPair& pair = pairs[numbers[place]];
-    place < count ? pair.new_groups.emplace_back(place)
-                  : pair.old_groups.emplace_back(place - count);
-  }
-  std::vector<GroupPair> result;
-  result.reserve(pairs.size());
-  for (auto& [number, pair] : pairs) result.push_back(std::move(pair));
-  return result;
-}
-
-CompiledCatalog without_missing_starts(const CompiledCatalog& catalog,
-                                       const Translation& to_other) {
-  struct Storage {
-    std::shared_ptr<const void> of_catalog;
-    std::vector<CompiledTask> tasks;
-  };
-  const auto storage = std::make_shared<Storage>();
-  storage->of_catalog = catalog.storage;
-  storage->tasks.assign(catalog.tasks.begin(), catalog.tasks.end());
-  for (TaskId task(0); task < storage->tasks.size(); ++task) {
-    if (to_other.tasks[task] == none) storage->tasks[task].reactive_start = 0;
-  }
-  CompiledCatalog result = catalog;
-  result.tasks = storage->tasks;
-  result.storage = storage;
-  return result;
-}
 
 ModelPair::ModelPair(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
                      const GroupPair& groups, const Assumptions& old_assumptions,

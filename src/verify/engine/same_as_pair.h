@@ -5,29 +5,14 @@
 #include <utility>
 #include <vector>
 
+#include "core/compare/translation.h"
 #include "core/property/properties.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "verify/engine/model.h"
-#include "verify/engine/same_as_names.h"
 
 namespace cbc {
 
-// Groups of two catalogs that are explored together, and what is the same in their models.
-
-struct GroupPair {
-  std::vector<GroupId> old_groups;
-  std::vector<GroupId> new_groups;
-};
-
-/// Joins groups that have the same task or behavior.
-[[nodiscard]] std::vector<GroupPair> join_groups(const CompiledCatalog& old_catalog,
-                                                 const CompiledCatalog& new_catalog,
-                                                 const Translation& to_old);
-
-/// The catalog without reactive starts of tasks that the other one does not have. It shares the
-/// memory of the catalog.
-[[nodiscard]] CompiledCatalog without_missing_starts(const CompiledCatalog& catalog,
-                                                     const Translation& to_other);
+// What is the same in the models of two catalogs.
 
 /// The models of both catalogs, and what is the same in them. Catalogs and translations must
 /// outlive it.

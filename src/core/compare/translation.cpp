@@ -1,6 +1,8 @@
-#include "verify/engine/same_as_names.h"
+#include "core/compare/translation.h"
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/support/wording.h"
+#include "runtime/base/disjoint_sets.h"
 #include "runtime/base/text.h"
 #include "runtime/coordinator/record.h"
 
@@ -119,6 +122,17 @@ std::string add_rename(const CompiledCatalog& old_catalog, const CompiledCatalog
   }
   return fmt::format("{} is {} of {}, {} is {} of {}", quote(old_name), old_kinds,
                      quote(old_catalog.file), quote(new_name), new_kinds, quote(new_catalog.file));
+}
+
+std::string add_renames(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
+                        const std::vector<std::string>& entries, Renames& renames) {
+  for (const std::string_view entry : entries) {
+    const std::size_t equals = entry.find('=');
+    std::string fault = add_rename(old_catalog, new_catalog, entry.substr(0, equals),
+                                   entry.substr(equals + 1), renames);
+    if (!fault.empty()) return fault;
+  }
+  return {};
 }
 
 // Translations.
@@ -295,39 +309,44 @@ Assumptions translate(const Assumptions& from, const Translation& to) {
   return result;
 }
 
-Script translate(const Script& script, const CompiledCatalog& from, const CompiledCatalog& to,
-                 const Translation& translation) {
+Step translate(const Step& step, const CompiledCatalog& from, const CompiledCatalog& to,
+               const Translation& translation) {
   const auto task = [&](std::uint32_t index) {
     return to.tasks[translation.tasks[from.task_ids[index]]].catalog_index;
   };
   const auto behavior = [&](std::uint32_t index) {
     return to.behaviors[translation.behaviors[from.behavior_ids[index]]].catalog_index;
   };
+  Step result = step;
+  if (result.expect) {
+    for (auto& running : result.expect->running) {
+      running.task = task(running.task);
+      if (running.behavior) running.behavior = behavior(*running.behavior);
+    }
+    for (std::uint32_t& stopped : result.expect->stopped) stopped = task(stopped);
+    return result;
+  }
+  switch (form_of(result.verb).subject) {
+    case VerbForm::SubjectKind::nothing:
+      break;
+    case VerbForm::SubjectKind::task:
+      result.subject = task(result.subject);
+      break;
+    case VerbForm::SubjectKind::behavior:
+      result.subject = behavior(result.subject);
+      break;
+    case VerbForm::SubjectKind::situation:
+      result.situation = translate(result.situation, from, to, translation);
+      break;
+  }
+  return result;
+}
+
+Script translate(const Script& script, const CompiledCatalog& from, const CompiledCatalog& to,
+                 const Translation& translation) {
   Script result = script;
   result.situation = translate(script.situation, from, to, translation);
-  for (Step& step : result.steps) {
-    if (step.expect) {
-      for (auto& running : step.expect->running) {
-        running.task = task(running.task);
-        if (running.behavior) running.behavior = behavior(*running.behavior);
-      }
-      for (std::uint32_t& stopped : step.expect->stopped) stopped = task(stopped);
-      continue;
-    }
-    switch (form_of(step.verb).subject) {
-      case VerbForm::SubjectKind::nothing:
-        break;
-      case VerbForm::SubjectKind::task:
-        step.subject = task(step.subject);
-        break;
-      case VerbForm::SubjectKind::behavior:
-        step.subject = behavior(step.subject);
-        break;
-      case VerbForm::SubjectKind::situation:
-        step.situation = translate(step.situation, from, to, translation);
-        break;
-    }
-  }
+  for (Step& step : result.steps) step = translate(step, from, to, translation);
   return result;
 }
 
@@ -343,6 +362,51 @@ void leave_out_missing(const CompiledCatalog& catalog, const Translation& to_oth
       running.behavior.reset();
     }
   }
+}
+
+std::vector<GroupPair> join_groups(const CompiledCatalog& old_catalog,
+                                   const CompiledCatalog& new_catalog, const Translation& to_old) {
+  const auto count = static_cast<std::uint32_t>(new_catalog.group_count());
+  const auto old_count = static_cast<std::uint32_t>(old_catalog.group_count());
+  DisjointSets sets(std::size_t{count} + old_count);
+  for (TaskId task(0); task < new_catalog.tasks.size(); ++task) {
+    if (to_old.tasks[task] == none) continue;
+    sets.join(new_catalog.tasks[task].group, count + old_catalog.tasks[to_old.tasks[task]].group);
+  }
+  for (BehaviorId behavior(0); behavior < new_catalog.behaviors.size(); ++behavior) {
+    if (to_old.behaviors[behavior] == none) continue;
+    sets.join(new_catalog.group_of(behavior),
+              count + old_catalog.group_of(to_old.behaviors[behavior]));
+  }
+  const std::vector<std::uint32_t> numbers = sets.numbers();
+  std::map<std::uint32_t, GroupPair> pairs;
+  for (std::uint32_t place = 0; place < numbers.size(); ++place) {
+    GroupPair& pair = pairs[numbers[place]];
+    place < count ? pair.new_groups.emplace_back(place)
+                  : pair.old_groups.emplace_back(place - count);
+  }
+  std::vector<GroupPair> result;
+  result.reserve(pairs.size());
+  for (auto& [number, pair] : pairs) result.push_back(std::move(pair));
+  return result;
+}
+
+CompiledCatalog without_missing_starts(const CompiledCatalog& catalog,
+                                       const Translation& to_other) {
+  struct Storage {
+    std::shared_ptr<const void> of_catalog;
+    std::vector<CompiledTask> tasks;
+  };
+  const auto storage = std::make_shared<Storage>();
+  storage->of_catalog = catalog.storage;
+  storage->tasks.assign(catalog.tasks.begin(), catalog.tasks.end());
+  for (TaskId task(0); task < storage->tasks.size(); ++task) {
+    if (to_other.tasks[task] == none) storage->tasks[task].reactive_start = 0;
+  }
+  CompiledCatalog result = catalog;
+  result.tasks = storage->tasks;
+  result.storage = storage;
+  return result;
 }
 
 }  // namespace cbc
