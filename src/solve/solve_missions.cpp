@@ -122,12 +122,23 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
     CoordinatorOptions coordination = coordinator_options(options, *mission.catalog);
     coordination.last_decisions = true;  // to explain failed expectations
     report_of_run.begin_run(*mission.catalog, mission.script);
+    if (!mission.outdated.empty()) {
+      RunResult result;
+      result.script = &mission.script;
+      result.was_run = false;
+      report_of_run.end_run(result, mission.outdated);
+      return result;
+    }
     RunResult result = run_script(*mission.catalog, mission.script, coordination, report_of_run);
     report_of_run.end_run(result, describe_end(result, coordination));
     return result;
   };
   int status = exit_ok;
   const auto after_run = [&](const Mission& mission, const RunResult& result) {
+    if (!mission.outdated.empty()) {
+      status = std::max<int>(status, exit_no);
+      return;
+    }
     const std::string reason = describe_end(result, coordinator_options(options, *mission.catalog));
     if (!reason.empty()) complain_of_run(mission, result, reason);
     status = std::max(status, status_of(result));
@@ -164,6 +175,7 @@ void tell_left_out(const std::string& page, std::uint64_t events) {
 int solve_missions(const SolveOptions& options, std::shared_ptr<const CheckedCatalog> catalog) {
   const SolveFormat& format = *find_named(solve_formats(), options.format);
   MissionLoader loader;
+  loader.keep_outdated();
   if (catalog != nullptr) loader.give_catalog(std::move(catalog));
   const std::optional<std::vector<Mission>> missions = loader.load(options.paths);
   if (!missions) {

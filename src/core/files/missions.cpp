@@ -1,6 +1,7 @@
 #include "core/files/missions.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <string_view>
@@ -34,7 +35,8 @@ std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::s
     has_failed_ = true;
   }
   files_.print_findings();
-  if (has_failed_) return std::nullopt;
+  const bool has_others = missions_.size() > outdated_ || outdated_ == 0;
+  if (has_failed_ || !has_others) return std::nullopt;
   if (missions_.empty() && !needs_none_) {
     complain("no event script given to solve on catalog {}", quote(display_name(paths.front())));
     return std::nullopt;
@@ -89,13 +91,41 @@ void MissionLoader::add_script(const InputFile& file) {
     return refuse(file, "is a property file; expected a script here");
   }
   std::shared_ptr<const CheckedCatalog> catalog = catalog_of(file);
-  std::optional<Script> script;
-  if (catalog != nullptr) script = files_.read_script(file, *catalog->compiled);
+  if (catalog == nullptr) {
+    has_failed_ = true;
+    return;
+  }
+  const std::size_t known = files_.findings().size();
+  std::optional<Script> script = files_.read_script(file, *catalog->compiled);
+  std::string outdated;
+  if (!script && keeps_outdated_) outdated = find_outdated(known);
+  if (!outdated.empty()) {
+    ++outdated_;
+    script.emplace().file = file.name;
+  }
   if (script) {
-    missions_.push_back({catalog->compiled, std::move(*script), std::move(catalog)});
+    missions_.push_back(
+        {catalog->compiled, std::move(*script), std::move(catalog), std::move(outdated)});
   } else {
     has_failed_ = true;
   }
+}
+
+/// What a script names that its catalog does not have, from its findings. Empty if something else
+/// is wrong.
+std::string MissionLoader::find_outdated(std::size_t first_finding) const {
+  constexpr std::array rules = {rule::undefined_task.name, rule::undefined_behavior.name,
+                                rule::undeclared_situation.name};
+  std::string first;
+  std::size_t count = 0;
+  for (std::size_t place = first_finding; place < files_.findings().size(); ++place) {
+    const Diagnostic& finding = files_.findings()[place];
+    if (finding.severity != Severity::error) continue;
+    if (std::find(rules.begin(), rules.end(), finding.rule) == rules.end()) return {};
+    if (count++ == 0) first = concat("line ", finding.range.begin.line, ": ", finding.message);
+  }
+  if (count == 0) return {};
+  return concat("not run: ", first, count > 1 ? concat("; and ", count - 1, " more") : "");
 }
 
 std::shared_ptr<const CheckedCatalog> MissionLoader::catalog_of(const InputFile& script) {

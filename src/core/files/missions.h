@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@ struct Mission {
   std::shared_ptr<const CompiledCatalog> catalog;
   Script script;
   std::shared_ptr<const CheckedCatalog> source;  ///< of `catalog`
+  std::string outdated;  ///< why it cannot run, see MissionLoader::keep_outdated(); or empty
 };
 
 /// Reads the files of a command line, and checks every script against its catalog before anything
@@ -27,6 +29,9 @@ class MissionLoader {
  public:
   /// From now on, folders and paths may be without a script.
   void need_none() { needs_none_ = true; }
+  /// Beside others, a script that names what its catalog does not have, and is right otherwise, is a
+  /// mission without steps.
+  void keep_outdated() { keeps_outdated_ = true; }
   /// All scripts run on this catalog, and the paths are those of scripts alone.
   void give_catalog(std::shared_ptr<const CheckedCatalog> catalog) {
     given_catalog_ = std::move(catalog);
@@ -52,12 +57,15 @@ class MissionLoader {
   void add_path(const std::string& path);
   [[nodiscard]] bool is_left_out(const std::string& path) const;
   void refuse(const InputFile& file, const char* what);
+  [[nodiscard]] std::string find_outdated(std::size_t first_finding) const;
 
   FileSet files_;
   std::shared_ptr<const CheckedCatalog> given_catalog_;
   bool is_given_catalog_bad_ = false;
   std::vector<Mission> missions_;
   bool needs_none_ = false;
+  bool keeps_outdated_ = false;
+  std::size_t outdated_ = 0;
   std::optional<std::string> left_out_;
   bool has_failed_ = false;
 };

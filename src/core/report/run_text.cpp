@@ -243,8 +243,13 @@ void TextReport::on_end(const State& state) {
   flush();
 }
 
-void TextReport::end_run(const RunResult& result, const std::string& /*error*/) {
+void TextReport::end_run(const RunResult& result, const std::string& error) {
   count(result);
+  if (!result.was_run) {
+    text_.line("");
+    text_.painted(style_.bad, printable(error));
+    return flush();
+  }
   text_.title("summary");
   summary_.write(result, text_);
   if (result.passed + result.failed > 0) {
@@ -259,6 +264,7 @@ void TextReport::count(const RunResult& result) {
   ++runs_;
   results_.push_back(result);
   if (result.failed > 0) ++failed_runs_;
+  if (!result.was_run) ++missing_runs_;
   if (!result.totals) return;
   if (!totals_) totals_.emplace();
   totals_->merge(*result.totals);
@@ -279,8 +285,10 @@ void TextReport::end() {
     text_.title("all scripts");
     write_scripts(results_, text_);
     text_.line("");
-    text_.painted(failed_runs_ > 0 ? style_.bad : style_.good,
-                  "{} scripts, {} with failed expectations", runs_, failed_runs_);
+    const std::string not_run =
+        missing_runs_ > 0 ? fmt::format(", {} not run", missing_runs_) : std::string();
+    text_.painted(failed_runs_ + missing_runs_ > 0 ? style_.bad : style_.good,
+                  "{} scripts, {} with failed expectations{}", runs_, failed_runs_, not_run);
   }
   if (totals_) text_.add("\n" + stats_table(*totals_, process_usage(), style_));
   flush();
@@ -380,6 +388,10 @@ void write_scripts(const std::vector<RunResult>& results, Text& text) {
                number_column("failed", 8)},
               {.columns = text.columns(), .column = 0});
   for (const RunResult& result : results) {
+    if (!result.was_run) {
+      table.add({file_of(result), "not run"}, text.style().bad);
+      continue;
+    }
     table.add({file_of(result), result.events, result.accepted, result.rejected, result.failed},
               result.failed > 0 ? text.style().bad : std::string_view());
   }

@@ -110,6 +110,7 @@ class TextReport final : public SolveReport {
   std::optional<Table> changes_;
   std::size_t runs_ = 0;
   std::size_t failed_runs_ = 0;
+  std::size_t missing_runs_ = 0;  ///< of scripts that were not run
   std::optional<SearchTotals> totals_;
 };
 

@@ -134,6 +134,7 @@ struct RunResult {
   Coordinator::Status status = Coordinator::Status::ok;
   std::string internal_error;      ///< if an answer was refused
   const Script* script = nullptr;  ///< null: a stream
+  bool was_run = true;             ///< false: the script names what its catalog does not have
   std::uint64_t events = 0;        ///< scripted or not; some are neither accepted nor rejected
   std::uint64_t accepted = 0;
   std::uint64_t rejected = 0;
