@@ -23,6 +23,7 @@ struct VerifyOptions {
   bool allow_missing = false;
   StateLimits limits;
   std::vector<std::string> cut_sets;  ///< names of tasks
+  std::vector<std::string> refused;   ///< names of tasks
   std::uint32_t order = 2;
   std::vector<std::string> situation;  ///< KEY=VALUE
 };

@@ -63,6 +63,9 @@ void add_verify_command(Program& program) {
   command.flag("--reduce", options->reduce, "Merge states that differ only in orders of requests");
   command.add_confinement();
 
+  command.option("--refused", options->refused, name_of("TASK", ValueKind::task),
+                 "Show how a start of TASK can be refused; repeatable");
+
   command.group("Comparison");
   command.option("--same-as", options->same_as, input("OLD", ValueKind::catalog),
                  "Prove that CATALOG decides as the catalog OLD does");

@@ -142,8 +142,9 @@ bool QuestionLoader::find_catalog(const InputFile& file) {
   return questions_.catalog != nullptr;
 }
 
-/// The tasks that are named in --cut-sets. Empty if the catalog lacks one, which is reported.
+/// The tasks that are named in an option. Empty if the catalog lacks one, which is reported.
 std::optional<std::vector<TaskId>> find_tasks(const CompiledCatalog& catalog,
+                                              std::string_view option,
                                               const std::vector<std::string>& names) {
   std::vector<TaskId> tasks;
   for (const std::string& name : names) {
@@ -151,7 +152,7 @@ std::optional<std::vector<TaskId>> find_tasks(const CompiledCatalog& catalog,
     if (!place) {
       std::vector<std::string_view> known;
       for (const std::string_view task : catalog.task_names) known.push_back(task);
-      complain("--cut-sets: catalog {} has no task {}{}", quote(catalog.file), quote(name),
+      complain("{}: catalog {} has no task {}{}", option, quote(catalog.file), quote(name),
                did_you_mean(nearest(name, known)));
       return std::nullopt;
     }
@@ -248,8 +249,37 @@ class Call {
   }
 
  private:
+  /// The tasks of --refused as promises that they can start, under the assumptions of the property
+  /// file, if there is one.
+  int add_refused() {
+    if (options_.refused.empty()) return exit_ok;
+    if (questions_.files.size() > 1) {
+      return usage_error("verify", "--refused takes at most one property file, found {}",
+                         questions_.files.size());
+    }
+    const auto tasks = find_tasks(catalog_, "--refused", options_.refused);
+    if (!tasks) return exit_unusable;
+    PropertyFile file;
+    if (questions_.files.empty()) {
+      file.assumptions = default_assumptions(catalog_);
+    } else {
+      file = *questions_.files.front();
+      questions_.files.clear();
+    }
+    if (file.path.empty()) file.path = "refused";
+    for (const TaskId task : *tasks) {
+      Property& property = file.properties.emplace_back();
+      property.name = fmt::format("{} can start", catalog_.name_of_task(task));
+      property.line = file.properties.size();  // there is none
+      property.task = task;
+    }
+    questions_.files.push_back(std::make_unique<const PropertyFile>(std::move(file)));
+    return exit_ok;
+  }
+
   /// Whatever can be wrong is said before the long work.
   int check() {
+    if (const int status = add_refused(); status != exit_ok) return status;
     const VerifyFormat& format = *find_named(verify_formats(), options_.format);
     const bool has_properties =
         std::all_of(questions_.files.begin(), questions_.files.end(),
@@ -270,7 +300,7 @@ class Call {
       return usage_error("verify", "{} takes at most one property file, found {}", takes_one_file,
                          questions_.files.size());
     }
-    const auto tasks = find_tasks(catalog_, options_.cut_sets);
+    const auto tasks = find_tasks(catalog_, "--cut-sets", options_.cut_sets);
     if (!tasks) return exit_unusable;
     cut_tasks_ = *tasks;
     if (const int status = read_situation(); status != exit_ok) return status;
@@ -292,6 +322,7 @@ class Call {
   }
 
   int read_renames() {
+    if (options_.renamed.empty()) return exit_ok;
     const std::string fault =
         add_renames(*questions_.old_catalog, catalog_, options_.renamed, comparison_.renames);
     return fault.empty() ? exit_ok : usage_error("verify", "--renamed: {}", fault);
