@@ -13,6 +13,7 @@
 #include "core/report/test_report.h"
 #include "core/report/words.h"
 #include "core/support/wording.h"
+#include "coverage/engine/first_goals.h"
 #include "coverage/report/coverage_report.h"
 #include "runtime/base/text.h"
 
@@ -40,6 +41,20 @@ void add_list(const CatalogCoverage& coverage, std::string_view heading,
   }
 }
 
+/// Where long lists of missed goals begin.
+void add_first_goals(const CatalogCoverage& coverage, Text& text) {
+  constexpr std::size_t few_goals = 20;
+  constexpr std::size_t shown = 10;
+  const GoalCount total = coverage.total();
+  if (total.goals - total.met <= few_goals) return;
+  text.line("");
+  text.line("begin with these, which guard the most: no mission shows that");
+  for (const std::uint32_t goal : first_goals(coverage, shown)) {
+    text.line("  {}: {}", place_of(coverage, coverage.goals()[goal]),
+              describe(coverage.catalog(), coverage.goals()[goal]));
+  }
+}
+
 void add_catalog(const CatalogCoverage& coverage, Text& text) {
   text.line("{}, {}", text.style().paint(text.style().strong, printable(coverage.catalog().file)),
             quantity(coverage.missions().size(), "mission"));
@@ -51,6 +66,7 @@ void add_catalog(const CatalogCoverage& coverage, Text& text) {
     text.line("");
     text.line(incomplete_proof);
   }
+  add_first_goals(coverage, text);
   add_list(coverage, "no mission shows that", &CatalogCoverage::is_missed, text);
   add_list(coverage, "under these assumptions no mission can show, and so it does not count, that",
            &CatalogCoverage::is_unreachable, text);

@@ -11,7 +11,7 @@
 #       runs-on: ubuntu-latest
 #       steps:
 #       - uses: actions/checkout@v4
-#       - uses: OWNER/cbc@v0.1.0    # puts cbc on the PATH, and checks all catalogs
+#       - uses: OWNER/cbc@v0.2.0    # puts cbc on the PATH, and checks all catalogs
 #       - run: sh ci.sh
 #
 # On GitLab, in .gitlab-ci.yml, with an image that has cbc:
