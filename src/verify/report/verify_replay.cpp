@@ -34,7 +34,7 @@ class ReplayListener final : public RunListener {
         last_move_(last_move),
         text_(style, memory_.stream()) {
     text_.begin_run(catalog, script);
-    explanation_.begin_run(catalog);
+    explanation_.begin_run(catalog, script);
   }
 
   void on_event(const EventRecord& record, const Step* step, const State& state) override {
