@@ -109,7 +109,7 @@ class Questions final : private EventListener {
 
   /// Whether only tasks that it excludes keep a reactive task from starting.
   [[nodiscard]] bool is_blocked_start(TaskId task) const {
-    const State& state = coordinator_.state();
+    const cbc::State& state = coordinator_.state();
     return catalog_.tasks[task].reactive_start != 0 && !state.is_running(task) &&
            state.has_available_behavior(task) && state.excludes_running_task(task);
   }
