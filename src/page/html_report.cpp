@@ -111,6 +111,10 @@ void HtmlReport::on_event(const EventRecord& record, const Step* step, const Sta
   }
 }
 
+void HtmlReport::on_success(const Success& success) {
+  if (left_out_of_run_ == 0) json_.on_success(success);
+}
+
 void HtmlReport::on_failure(const Failure& failure) {
   if (left_out_of_run_ == 0) return json_.on_failure(failure);
   if (failures_left_ == 0) return;
