@@ -105,9 +105,14 @@ void HtmlReport::begin_run(const CompiledCatalog& catalog, const Script& script)
 void HtmlReport::on_event(const EventRecord& record, const Step* step, const State& state) {
   if (is_full()) {
     ++left_out_of_run_;
+    json_.leave_out(record, step, state);
   } else {
     json_.on_event(record, step, state);
   }
+}
+
+void HtmlReport::on_success(const Success& success) {
+  if (left_out_of_run_ == 0) json_.on_success(success);
 }
 
 void HtmlReport::on_failure(const Failure& failure) {
@@ -174,6 +179,7 @@ std::string stream_page(const CompiledCatalog& catalog, const StreamOfPage& stre
   json.write_json("events", "[" + stream.events + "]");
   json.open("expectations", '{');
   json.write_members({{"passed", 0}, {"failed", 0}});
+  json.write_json("successes", "[]");
   json.write_json("failures", "[]");
   json.close('}');
   if (!stream.error.empty()) json.write("error", stream.error);

@@ -37,6 +37,7 @@ class HtmlReport final : public SolveReport {
 
   void begin_run(const CompiledCatalog& catalog, const Script& script) override;
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
+  void on_success(const Success& success) override;
   void on_failure(const Failure& failure) override;
   void on_end(const State& state) override;
   void end_run(const RunResult& result, const std::string& error) override;

@@ -38,14 +38,70 @@ constexpr std::size_t longest_line = std::size_t{64} << 20;
 /// Whether events have a member only if an option asks for it.
 bool is_addition(std::string_view name) { return name == "why" || name == "alternatives"; }
 
-/// The names of the members that differ, "'running', 'changes'". Empty if the lines differ only in
-/// what an option of one of the two runs adds.
-std::string find_differences(std::string_view logged, std::string_view found) {
-  using Json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
+
+/// The stopped tasks as logs of 0.1.0 have them: "interrupted" for all that did not finish, and no
+/// reasons.
+Json without_causes(Json stopped_tasks) {
+  for (Json& stopped : stopped_tasks) {
+    const auto cause = find_word<ChangeCause>(stopped.value("cause", ""));
+    if (cause) stopped["cause"] = name_of(FinishCause::interrupted);
+    stopped.erase("conflict");
+    stopped.erase("message");
+  }
+  return stopped_tasks;
+}
+
+/// Longer lists say what differs in them.
+constexpr std::size_t most_items = 8;
+
+/// The items of a list, or the entries of an object.
+std::vector<std::string> items_of(const Json& container) {
+  std::vector<std::string> items;
+  for (const auto& [key, value] : container.items()) {
+    const std::string item =
+        container.is_object() ? fmt::format("{}: {}", key, value.dump()) : value.dump();
+    items.push_back(printable(item));
+  }
+  return items;
+}
+
+/// "  running: missing: …; not expected: …": how a long list or object differs, or nothing.
+std::string describe_difference(const std::string& name, const Json& logged, const Json& found) {
+  if (!logged.is_structured() || !found.is_structured()) return {};
+  if (logged.size() + found.size() <= most_items) return {};
+  std::vector<std::string> missing = items_of(logged);
+  std::vector<std::string> surplus = items_of(found);
+  for (auto item = missing.begin(); item != missing.end();) {
+    const auto same = std::find(surplus.begin(), surplus.end(), *item);
+    if (same == surplus.end()) {
+      ++item;
+      continue;
+    }
+    surplus.erase(same);
+    item = missing.erase(item);
+  }
+  if (missing.empty() && surplus.empty()) return fmt::format("\n  {}: in another order", name);
+  std::string text = fmt::format("\n  {}:", name);
+  if (!missing.empty()) text += " missing: " + join(missing, ", ");
+  if (!surplus.empty()) {
+    text += fmt::format("{} not expected: {}", missing.empty() ? "" : ";", join(surplus, ", "));
+  }
+  return text;
+}
+
+struct Differences {
+  std::string names;    ///< of the members that differ: "'running', 'changes'"
+  std::string details;  ///< lines about long ones
+};
+
+/// Empty if the lines differ only in what an option of one of the two runs adds, or this version.
+Differences find_differences(std::string_view logged, std::string_view found) {
   const Json left = Json::parse(logged, nullptr, false);
   const Json right = Json::parse(found, nullptr, false);
-  if (!left.is_object() || !right.is_object()) return "the form of the line";
+  if (!left.is_object() || !right.is_object()) return {"the form of the line", {}};
   std::vector<std::string> names;
+  std::string details;
   bool has_additions = false;
   const auto add_missing = [&](const std::string& name) {
     if (is_addition(name)) {
@@ -57,15 +113,20 @@ std::string find_differences(std::string_view logged, std::string_view found) {
   for (const auto& [name, value] : left.items()) {
     if (!right.contains(name)) {
       add_missing(name);
+    } else if (name == "stopped_tasks" && value != right[name] &&
+               value == without_causes(right[name])) {
+      has_additions = true;
     } else if (right[name] != value) {
       names.push_back(quote(name));
+      details += describe_difference(name, value, right[name]);
     }
   }
   for (const auto& [name, value] : right.items()) {
     if (!left.contains(name)) add_missing(name);
   }
   if (names.empty() && has_additions) return {};
-  return names.empty() ? "the order or the spelling of the line" : join(names, ", ");
+  if (names.empty()) return {"the order or the spelling of the line", {}};
+  return {join(names, ", "), details};
 }
 
 class StreamReplay {
@@ -229,7 +290,7 @@ class StreamReplay {
                                    "option"
                                  : "the log ends here");
     } else if (expected_.front().text != line) {
-      std::string names = find_differences(expected_.front().text, line);
+      auto [names, details] = find_differences(expected_.front().text, line);
       if (names.empty()) {
         expected_.pop_front();
         return;
@@ -238,7 +299,7 @@ class StreamReplay {
         names += "; replay a log that continues from a saved state with --state-in";
       }
       tell_difference(expected_.front().number, expected_.front().text, std::string(line),
-                      "they differ in " + names);
+                      "they differ in " + names, details);
     } else {
       expected_.pop_front();
     }
@@ -288,10 +349,10 @@ class StreamReplay {
   }
 
   void tell_difference(std::uint64_t number, const std::string& logged, const std::string& found,
-                       const std::string& what) {
+                       const std::string& what, const std::string& details = {}) {
     end_ = fmt::format("the replay differs from line {} of the log: {}", number, what);
     std::string message =
-        fmt::format("{}:{}: the first difference: {}", printable(name_), number, what);
+        fmt::format("{}:{}: the first difference: {}", printable(name_), number, what) + details;
     if (!logged.empty()) message += "\n  log:    " + printable(logged);
     if (!found.empty()) message += "\n  replay: " + printable(found);
     output_.flush();

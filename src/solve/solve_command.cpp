@@ -47,9 +47,7 @@ CoordinatorOptions coordinator_options(const SolveOptions& options,
     result.search.time_limit = std::chrono::microseconds(parse_seconds(options.time_limit).value);
   }
   result.explain = explanation_for(catalog, options.explain);
-  // Formats for programs have it on request only.
-  result.explain.displaced =
-      options.format == "text" || options.format == "junit" || options.format == "github";
+  result.explain.displaced = true;
   result.measure_time = options.stats;
   return result;
 }
@@ -185,8 +183,7 @@ void add_solve_command(Program& program) {
   command.option("-j,--jobs", options->jobs, whole_number("N", 1),
                  "Run N scripts at once (default: all processors)");
   command.flag("--brief", options->brief, "Write one line for each event, no table")
-      .not_with({"--why", "--alternatives"}, "one line has no room for reasons")
-      .only_with_values("--format", {"text"});
+      .only_with_values("--format", {"text", "github"});
   command.flag("--stats", options->stats, "Show the cost of searches, memory and time")
       .not_with({"--replay"}, "times cannot be repeated")
       .not_with({"--format junit", "--format github"}, "it has no place for times");

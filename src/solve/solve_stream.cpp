@@ -18,6 +18,7 @@
 #include "core/files/output.h"
 #include "core/files/read.h"
 #include "core/report/event_json.h"
+#include "core/report/failure_explanation.h"
 #include "core/script/event_lines.h"
 #include "core/script/reader.h"
 #include "core/script/runner.h"
@@ -60,7 +61,9 @@ class LivePage {
                                                       std::uint64_t index,
                                                       const Coordinator& coordinator);
 
-  explicit LivePage(const CompiledCatalog& catalog) : catalog_(catalog) {}
+  explicit LivePage(const CompiledCatalog& catalog) : catalog_(catalog) {
+    explanation_.begin_stream(catalog);
+  }
 
   void add(const EventStream::Line& line);
   void add(const Failure& failure);
@@ -74,6 +77,7 @@ class LivePage {
   void add(std::string_view type, std::string_view data);
 
   const CompiledCatalog& catalog_;
+  FailureExplanation explanation_;
   serve::History history_{serve::History::Limits()};
   std::unique_ptr<serve::Server> server_;
 };
@@ -103,6 +107,7 @@ void LivePage::add(std::string_view type, std::string_view data) {
 }
 
 void LivePage::add(const EventStream::Line& line) {
+  explanation_.add(line.record, line.step, line.state);
   add("", line.text.substr(0, line.text.size() - 1));
   if (history_.wants_state()) {
     history_.begin_part(state_of_page(catalog_, line.record.index, line.record.time, line.state));
@@ -111,7 +116,7 @@ void LivePage::add(const EventStream::Line& line) {
 
 void LivePage::add(const Failure& failure) {
   std::string text;
-  append_failure(text, catalog_, failure);
+  append_failure(text, catalog_, failure, explanation_);
   add("failure", text);
 }
 

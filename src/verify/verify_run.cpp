@@ -421,8 +421,8 @@ class Call {
     of_new.file = "difference";
     of_old.file = of_new.file;
     const Microseconds last_move = time_of_last_move(difference);
-    added.with_new = replay(catalog_, of_new, nullptr, style, last_move);
-    added.with_old = replay(*questions_.old_catalog, of_old, nullptr, style, last_move);
+    added.with_new = replay_difference(catalog_, of_new, style, last_move);
+    added.with_old = replay_difference(*questions_.old_catalog, of_old, style, last_move);
     if (!options_.scripts) return exit_ok;
     const std::size_t number = reported.differences.size();
     const std::string name = number == 1 ? "difference" : fmt::format("difference-{}", number);
@@ -533,7 +533,7 @@ class Call {
         answer.witness->script.file =
             fmt::format("{}:{}: {}", part.file->path, answer.property->line,
                         title_of(catalog_, *answer.property));
-        reported.replay = replay(catalog_, answer.witness->script, answer.property, style);
+        reported.replay = replay_witness(catalog_, *answer.witness, *answer.property, style);
         if (const int status = check_replay(answer, *reported.replay); status != exit_ok) {
           return status;
         }

@@ -96,7 +96,9 @@ Made make(std::string_view catalog_text, std::string_view script_text) {
 }
 
 TEST(SolveHtml, HasTheReportInJson) {
-  const Made made = make(plain_catalog, plain_script);
+  Made made = make(plain_catalog, plain_script);
+  // Notes are for the page alone.
+  for (json& event : made.data["report"]["runs"][0]["events"]) event.erase("note");
   EXPECT_EQ(made.data["report"], made.report);
   EXPECT_EQ(made.report["runs"][0]["events"].size(), 3U);
   EXPECT_EQ(made.report["runs"][0]["expectations"]["failed"], 1);

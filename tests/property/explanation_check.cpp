@@ -249,9 +249,18 @@ class Check {
   void check_alternatives(std::size_t most) {
     const ordered_json& list = event_["alternatives"]["configurations"];
     demand(event_["alternatives"]["limit_reached"] == false, "a limit was reached");
-    demand(list.size() == std::min(most, solutions_.size()), "wrong number of alternatives");
+    std::vector<const Solution*> worthwhile;
+    for (const Solution& solution : solutions_) {
+      if (!has_needless_task(solution.values)) {
+        worthwhile.push_back(&solution);
+      }
+    }
+    demand(list.size() == std::min(most, worthwhile.size()), "wrong number of alternatives");
     for (std::size_t i = 0; i < list.size(); ++i) {
-      check_configuration(list[i], solutions_[i]);
+      check_configuration(list[i], *worthwhile[i]);
+    }
+    if (worthwhile.size() < solutions_.size()) {
+      statistics_.count("alternatives: some are left out");
     }
     statistics_.count(list.size() < most ? "alternatives: all" : "alternatives: the best");
   }
@@ -326,6 +335,25 @@ class Check {
   std::size_t satisfied_of_all(const Solution& solution) const {
     return event_["objective"]["satisfied"].get<std::size_t>() + solution.satisfied_count -
            answer_.solution.satisfied_count;
+  }
+
+  // Whether a task of the group runs that nobody requested, and nothing that runs requires.
+  bool has_needless_task(const Assignment& values) const {
+    return std::any_of(tasks_.begin(), tasks_.end(), [&](std::size_t task) {
+      const auto& requests = answer_.problem.requests;
+      const bool is_requested =
+          std::any_of(requests.begin(), requests.end(),
+                      [&](const ActiveRequest& request) { return request.task == task; });
+      const bool is_required = std::any_of(values.begin(), values.end(), [&](std::size_t behavior) {
+        if (behavior == none) {
+          return false;
+        }
+        const auto& requirements = facts_.catalog.behaviors[behavior].requirements;
+        return std::any_of(requirements.begin(), requirements.end(),
+                           [&](const Requirement& one) { return one.task == task; });
+      });
+      return values[task] != none && !is_requested && !is_required;
+    });
   }
 
   void check_configuration(const ordered_json& actual, const Solution& expected) const {

@@ -48,6 +48,7 @@ struct LowerBound {
 const LowerBound explanation_lower_bounds[] = {
     {"alternatives: all", 100},
     {"alternatives: the best", 100},
+    {"alternatives: some are left out", 50},
     {"displaced", 20},
     {"loses by: requests", 100},
     {"loses by: request_order", 1},

@@ -1,5 +1,6 @@
 // Random catalogs and scripts: what is asked later about an event against what the event itself
 // explains, which another test compares with brute force.
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -76,13 +77,20 @@ class Questions final : private EventListener {
   void ask(BehaviorId behavior, const Known& known) {
     std::vector<Demands> ways;
     bool is_queued = false;
+    bool is_blocked = false;
     for (const ValueId value : catalog_.performs[behavior]) {
       const TaskId task = catalog_.task_of(value);
       is_queued |= coordinator_.state().queue().has(catalog_.tasks[task].catalog_index);
+      is_blocked |= is_blocked_start(task);
       ways.push_back({{Demand::Kind::has, task, value - catalog_.values.begin[task]}});
     }
     const GroupId group = catalog_.group_of(behavior);
     const WhyUnmet answer = coordinator_.why_unmet(group, ways);
+    ASSERT_EQ(answer.kind == WhyUnmet::Kind::blocked, is_blocked);
+    if (is_blocked) {
+      check_blocked(answer.blocked);
+      return statistics_.count("blocked");
+    }
     if (is_queued) {
       EXPECT_EQ(answer.kind, WhyUnmet::Kind::due);
       return statistics_.count("due");
@@ -97,6 +105,28 @@ class Questions final : private EventListener {
     ASSERT_EQ(answer.kind, WhyUnmet::Kind::decided);
     EXPECT_EQ(answer.event->index, known.event);
     compare(answer.why_not, known.why.why_not);
+  }
+
+  /// Whether only tasks that it excludes keep a reactive task from starting.
+  [[nodiscard]] bool is_blocked_start(TaskId task) const {
+    const cbc::State& state = coordinator_.state();
+    return catalog_.tasks[task].reactive_start != 0 && !state.is_running(task) &&
+           state.has_available_behavior(task) && state.excludes_running_task(task);
+  }
+
+  void check_blocked(const std::vector<BlockedStart>& blocked) const {
+    for (const BlockedStart& start : blocked) {
+      EXPECT_TRUE(is_blocked_start(start.task));
+      EXPECT_FALSE(start.rivals.empty());
+      for (const BlockedStart::Rival& rival : start.rivals) {
+        const auto cliques = catalog_.task_cliques[start.task];
+        EXPECT_TRUE(coordinator_.state().is_running(rival.task));
+        EXPECT_TRUE(std::any_of(cliques.begin(), cliques.end(), [&](std::uint32_t clique) {
+          const auto members = catalog_.cliques[clique];
+          return std::find(members.begin(), members.end(), rival.task) != members.end();
+        }));
+      }
+    }
   }
 
   void compare(const WhyNot& later, const WhyNot& then) {
@@ -168,7 +198,8 @@ TEST(LastDecisions, KnowsWhatTheEventExplained) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     run_case(seed, statistics);
   }
-  for (const char* const what : {"alternative", "conflict", "not requested", "rejected", "due"}) {
+  for (const char* const what :
+       {"alternative", "conflict", "not requested", "rejected", "due", "blocked"}) {
     EXPECT_GE(statistics.of(what), 5) << what;
   }
 }

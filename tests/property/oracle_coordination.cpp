@@ -65,8 +65,17 @@ void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
   if (solution) {
     for (const std::size_t task : stopped_tasks(solution->values)) {
       const bool own = contains(transition.finished_tasks, task);
-      stopped.push_back({{"task", task_name(task)},
-                         {"cause", to_string(own ? trigger.cause : Cause::interrupted)}});
+      const bool asked = trigger.verb == Verb::stop && trigger.subject == task;
+      const std::optional<Request>& request = state_.requests[task];
+      ordered_json entry = {{"task", task_name(task)},
+                            {"cause", own       ? std::string(to_string(trigger.cause))
+                                      : asked   ? "requested"
+                                      : request ? "displaced"
+                                                : "released"}};
+      if (request && request->priority > 0) {
+        entry["conflict"] = ordered_json::array();
+      }
+      stopped.push_back(std::move(entry));
     }
     objectives = objective(transition, *solution);
     if (keeps_answers_) {

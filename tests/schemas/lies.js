@@ -22,6 +22,8 @@ const objective = of(outcome('accepted'), (line) => line.objective);
 const search = (word) => of(outcome(word), (line) => line.search);
 const change = (op, cause) => (line) =>
   (line.changes ?? []).find((item) => item.op === op && (!cause || item.cause === cause));
+const stoppedTask = (cause) => (line) =>
+  (line.stopped_tasks ?? []).find((item) => item.cause === cause);
 const reason = (kind) => (line) =>
   [line, ...(line.why ?? [])]
     .flatMap((item) => item.conflict ?? [])
@@ -38,6 +40,7 @@ const loss = (word) =>
 
 // Parts of the other documents.
 const whole = (document) => document;
+const success = (report) => report.runs[0].expectations.successes[0];
 const failure = (report) => report.runs[0].expectations.failures[0];
 const kindOfTotals = of(lineWith('totals'), (line) => line.totals.kinds[0]);
 const goal = (kind) => (report) =>
@@ -73,7 +76,7 @@ const exclusivity = of(group, (item) => item.exclusivity[0]);
 const faulty = {kind: 'faulty', behavior: 'GPS', message: 'GPS is faulty'};
 const priority = {kind: 'priority', task: 'HOVER', priority: 2, message: 'HOVER has priority 2'};
 const performer = {task: 'LOCALIZE', behavior: 'GPS', suitability: 90};
-const stopped = {task: 'HOVER', cause: 'interrupted'};
+const stopped = {task: 'HOVER', cause: 'released'};
 const activation = {
   op: 'activate',
   behavior: 'GPS',
@@ -128,6 +131,10 @@ const lies = {
       (line) => delete line.name && delete line.priority && Object.assign(line, {verb: 'wait'}),
     ],
     ['a rejected event that stopped a task', outcome('rejected'), {stopped_tasks: [stopped]}],
+    ['a task that was stopped and undone', stoppedTask('released'), {cause: 'undone'}],
+    ['a released task with reasons', stoppedTask('released'), {conflict: []}],
+    ['a released task that tells why', stoppedTask('released'), {message: 'it stops'}],
+    ['a stop on request that tells why', stoppedTask('requested'), {message: 'it stops'}],
     ['a rejected event that is optimal', search('rejected'), {status: 'optimal'}],
     ['a rejected event that is explained', outcome('rejected'), {why: [noAnswer]}],
     ['a rejection after a search by priority', searched, {conflict: [priority]}],
@@ -211,6 +218,7 @@ const lies = {
 
   solve: [
     ['no run', whole, {runs: []}],
+    ['a success in line 0', success, {line: 0}],
     ['a failure in line 0', failure, {line: 0}],
     [
       'totals of the runs only',

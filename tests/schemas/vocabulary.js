@@ -81,9 +81,15 @@ function mayBeTruth(place, object) {
   return isInSituation || (object.name ?? '').toString().startsWith('situation ');
 }
 
+/** Whether the object says why a task stopped. */
+function isStop(object) {
+  return 'task' in object && 'cause' in object && !('verb' in object);
+}
+
 /** Whether the object may be without this member. */
 function isOptional(object, name) {
   if (name === 'task') return 'verb' in object; // of a finish; not of what is about tasks
+  if (['conflict', 'message'].includes(name)) return isStop(object);
   if (name === 'together') return 'constraints' in object; // of a summary; not of a pair
   if (name === 'situation') return object.kind === 'behavior' || 'event' in object;
   if (name === 'variables') return !('groups' in object) && !('unconditional' in object);

@@ -115,6 +115,11 @@ class RequirementGraph {
     from_.resize(vertices, unreached);
   }
 
+  /// Whether a requirement is part of a cycle.
+  [[nodiscard]] bool has_cycle(BehaviorIndex behavior, TaskIndex task) const {
+    return component_[tasks_ + behavior] == component_[task];
+  }
+
   /// For each set of tasks that require one another, a shortest cycle through the first of them, in
   /// catalog order of these.
   std::vector<Cycle> find_cycles() {
@@ -183,6 +188,17 @@ class RequirementGraph {
 constexpr std::size_t longest_chain = 10;
 
 }  // namespace
+
+std::vector<std::vector<bool>> requirements_in_cycles(const Catalog& catalog) {
+  const RequirementGraph graph(catalog);
+  std::vector<std::vector<bool>> in_cycle(catalog.behaviors.size());
+  for (BehaviorIndex index = 0; index < catalog.behaviors.size(); ++index) {
+    for (const Requirement& requirement : catalog.behaviors[index].requirements) {
+      in_cycle[index].push_back(graph.has_cycle(index, requirement.task));
+    }
+  }
+  return in_cycle;
+}
 
 void check_requirement_cycles(const Catalog& catalog, Reporter& reporter) {
   for (const Cycle& cycle : RequirementGraph(catalog).find_cycles()) {

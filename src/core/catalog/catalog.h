@@ -161,6 +161,9 @@ class Exclusions {
 /// Reports each set of tasks that require one another, by a shortest cycle through the first one.
 void check_requirement_cycles(const Catalog& catalog, Reporter& reporter);
 
+/// By behavior and requirement, whether the requirement is part of a cycle.
+[[nodiscard]] std::vector<std::vector<bool>> requirements_in_cycles(const Catalog& catalog);
+
 /// Reports each requirement of a task that excludes all the tasks of its behavior.
 void check_exclusive_requirements(const Catalog& catalog, Reporter& reporter);
 

@@ -578,11 +578,15 @@ class RedundancyCheck {
 
 void check_on_request_requirements(const Catalog& catalog, const std::vector<bool>& conflicts,
                                    Reporter& reporter) {
+  const std::vector<std::vector<bool>> in_cycle = requirements_in_cycles(catalog);
   for (std::size_t index = 0; index < catalog.behaviors.size(); ++index) {
     if (conflicts[index]) continue;
-    for (const Requirement& requirement : catalog.behaviors[index].requirements) {
+    const std::vector<Requirement>& requirements = catalog.behaviors[index].requirements;
+    for (std::size_t place = 0; place < requirements.size(); ++place) {
+      const Requirement& requirement = requirements[place];
       const Task& task = catalog.tasks[requirement.task];
-      if (!is_on_request(task)) continue;
+      // No task of a cycle can be requested first.
+      if (!is_on_request(task) || in_cycle[index][place]) continue;
       report(catalog.behaviors[index], requirement, task, quote(task.name), reporter);
     }
   }

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/compile/compile.h"
@@ -203,12 +206,69 @@ inline constexpr auto change =
       {"if": {"properties": {"cause": {"enum": ["required", "released", "undone"]}}},
        "then": {"properties": {"priority": {"type": "null"}}}}])");
 
+/// Why a task stopped, as in the text.
+struct StopWord {
+  void write(JsonWriter& json, const StoppedTask& stopped, const Decision& in) const {
+    json.put(stop_word(in.record, stopped));
+  }
+  void put_schema(JsonWriter& json, Definitions& /*definitions*/) const {
+    json.open("enum", '[');
+    for (const std::string_view word : words_of<FinishCause>()) json.write(word);
+    for (const ChangeCause cause :
+         {ChangeCause::requested, ChangeCause::displaced, ChangeCause::released}) {
+      json.write(name_of(cause));
+    }
+    json.close(']');
+  }
+};
+
+/// Why the request of a task could not go on; null if it was not displaced.
+inline constexpr auto displacement_of = [](const StoppedTask& stopped,
+                                           const Decision& in) -> const Displacement* {
+  const std::vector<Displacement>& displaced = in.record.explanation.displaced;
+  const auto found =
+      std::find_if(displaced.begin(), displaced.end(),
+                   [&stopped](const Displacement& entry) { return entry.task == stopped.task; });
+  return found == displaced.end() ? nullptr : &*found;
+};
+
 inline constexpr auto stopped_task =
-    object("stopped_task", "", member("task", task, "", &StoppedTask::task),
-           member("cause", finish_cause,
-                  "For the tasks of the finished behavior, the cause of the finish event; "
-                  "interrupted for all others.",
-                  &StoppedTask::cause));
+    object(
+        "stopped_task", "", member("task", task, "", &StoppedTask::task),
+        member(
+            "cause", StopWord(),
+            "For the tasks of the finished behavior, the cause of the finish event. For others "
+            "requested (this event stops the task), displaced (it had a request), or released (it "
+            "had none).",
+            std::identity()),
+        optional(
+            "conflict", list(pointed(reason)),
+            "Of a task that had a request of priority 1 or higher: why it could not go on, a "
+            "minimal set of reasons. Empty if the event alone rules it out, or if it could, but "
+            "in a worse configuration.",
+            [](const StoppedTask& of, const Decision& in) {
+              using Reasons = std::vector<const Reason*>;
+              if (of.priority.value_or(0) == 0) return std::optional<Reasons>();
+              const Displacement* const displaced = displacement_of(of, in);
+              if (displaced == nullptr) return std::optional(Reasons());
+              return std::optional(
+                  in_order(displaced->why_not.conflict, std::span(&of.task, 1), in));
+            }),
+        optional(
+            "message", text,
+            "Of a displaced task, unless a limit ended the search: why it could not go on, as a "
+            "sentence for people.",
+            [](const StoppedTask& of, const Decision& in) {
+              const Displacement* const displaced = displacement_of(of, in);
+              return displaced == nullptr ? std::nullopt
+                                          : std::optional(message_of(describe_displacement(
+                                                in.catalog, in.record, *displaced, in.state)));
+            }))
+        .related(R"([
+      {"if": {"properties": {"cause": {"const": "released"}}},
+       "then": {"properties": {"conflict": false, "message": false}}},
+      {"if": {"properties": {"cause": {"const": "requested"}}},
+       "then": {"properties": {"message": false}}}])");
 
 inline constexpr auto bound = object(
     "bound",

@@ -105,7 +105,7 @@ void EventStream::on_event(const EventRecord& record, const Step* step, const St
   line_.clear();
   append_event(line_, catalog_, record, step, state, adds_);
   line_ += '\n';
-  take_line_({line_, record, state});
+  take_line_({line_, record, step, state});
 }
 
 }  // namespace cbc

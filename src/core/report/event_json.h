@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/report/failure_explanation.h"
 #include "core/script/runner.h"
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
@@ -25,8 +26,9 @@ struct EventAdditions {
   bool note = false;  ///< for the page alone: see describe_note
 };
 
-/// Appends an expectation that failed, as an object.
-void append_failure(std::string& text, const CompiledCatalog& catalog, const Failure& failure);
+/// Appends an expectation that failed, as an object. `explanation`: of its run, up to it.
+void append_failure(std::string& text, const CompiledCatalog& catalog, const Failure& failure,
+                    const FailureExplanation& explanation);
 
 /// Appends one event as JSON on one line, as in cbc.solve/1. `step` is the scripted one, or null.
 /// No tree is built: streams write a hundred thousand events per second.
@@ -60,6 +62,7 @@ class EventStream final : public RunListener {
   struct Line {
     std::string_view text;
     const EventRecord& record;
+    const Step* step;    ///< the scripted one, or null
     const State& state;  ///< after the event
   };
   using TakeLine = std::function<void(const Line&)>;

@@ -217,7 +217,7 @@ inline constexpr auto why_not = [](std::string_view alternative) {
 [[nodiscard]] inline std::string message_of(const Sentences& sentences) {
   std::string message = sentences.first;
   for (std::size_t place = 0; place < sentences.more.size(); ++place) {
-    message += place == 0 ? " " : "; ";
+    message += place == 0 || message.ends_with(':') ? " " : "; ";
     message += without_indentation(sentences.more[place]);
   }
   return message;

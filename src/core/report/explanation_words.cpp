@@ -1,6 +1,9 @@
 #include "core/report/explanation_words.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -70,21 +73,121 @@ Figures figures_of(const CompiledCatalog& catalog, GroupId group, const State& s
   }
 }
 
+/// " (lost: A and B)": the requests that the alternative does not serve, unlike the answer, without
+/// those of the tasks in question. `state`: before the event or after it.
+std::string describe_lost_requests(const CompiledCatalog& catalog, const EventRecord& record,
+                                   const WhyNot& why_not, std::span<const TaskId> in_question,
+                                   const State& state) {
+  std::vector<TaskId> lost;
+  for (const TaskId task :
+       differing_tasks(catalog, record.search->group, record.explanation.chosen.assignment,
+                       why_not.alternative->assignment)) {
+    const LocalTask place = task - catalog.group_tasks[record.search->group];
+    const bool is_requested =
+        state.has_request(task) || (record.verb == Verb::start && record.task == task);
+    const bool is_in_question =
+        std::find(in_question.begin(), in_question.end(), task) != in_question.end();
+    if (!is_requested || is_in_question || why_not.alternative->assignment[place] != none) continue;
+    lost.push_back(task);
+  }
+  if (lost.empty()) return {};
+  return fmt::format(" (lost: {})", list_with_and(names_in_sentence(catalog, lost)));
+}
+
+/// The task, and all that it requires in an answer for its group.
+std::vector<TaskId> needed_tasks(const CompiledCatalog& catalog, GroupId group,
+                                 const Assignment& assignment, TaskId task) {
+  std::vector<TaskId> needed{task};
+  for (std::size_t next = 0; next < needed.size(); ++next) {
+    const std::uint32_t index = assignment[needed[next] - catalog.group_tasks[group]];
+    if (index == none) continue;
+    const BehaviorId behavior = catalog.values[needed[next]][index].behavior;
+    for (const CompiledRequirement& requirement : catalog.requirements[behavior]) {
+      if (std::find(needed.begin(), needed.end(), requirement.task) == needed.end()) {
+        needed.push_back(requirement.task);
+      }
+    }
+  }
+  return needed;
+}
+
+/// The line of an exclusion of two tasks; nothing if there is none.
+std::optional<std::uint32_t> find_exclusion(const CompiledCatalog& catalog, TaskId task,
+                                            TaskId other) {
+  for (const std::uint32_t clique : catalog.task_cliques[task]) {
+    const auto members = catalog.cliques[clique];
+    if (task != other && std::find(members.begin(), members.end(), other) != members.end()) {
+      return catalog.clique_lines[clique];
+    }
+  }
+  return std::nullopt;
+}
+
+/// "REAR would need ENCODER, which excludes FRONT (robot.yaml:18)": why the two tasks of a
+/// difference do not run together, if an exclusion of what they need is the reason.
+std::string describe_rivalry(const CompiledCatalog& catalog, const EventRecord& record,
+                             const WhyNot& why_not) {
+  const GroupId group = record.search->group;
+  const TaskId served = why_not.difference.task;
+  const TaskId other = why_not.difference.other_task;
+  for (const TaskId needed : needed_tasks(catalog, group, why_not.alternative->assignment, other)) {
+    for (const TaskId excluded :
+         needed_tasks(catalog, group, record.explanation.chosen.assignment, served)) {
+      const auto line = find_exclusion(catalog, needed, excluded);
+      if (!line) continue;
+      std::string text = task_name(catalog, other);
+      if (needed != other) text += fmt::format(" would need {}, which", task_name(catalog, needed));
+      text += " excludes " + task_name(catalog, excluded);
+      if (excluded != served) text += fmt::format(", which {} needs", task_name(catalog, served));
+      return text + place_in_catalog(catalog, *line);
+    }
+  }
+  return {};
+}
+
+/// "(priority 2, at 10.000 s)"
+std::string describe_request(const RankedRequest& request) {
+  const std::string priority = fmt::format("(priority {}", request.priority);
+  return request.time ? fmt::format("{}, at {} s)", priority, format_time(*request.time))
+                      : priority + ")";
+}
+
+/// Which of the requests of a difference is served, and by what rule.
+std::string describe_order(const CompiledCatalog& catalog, const WhyNot& why_not) {
+  return fmt::format("the request of {} {} goes before that of {} {}{}",
+                     task_name(catalog, why_not.difference.task), describe_request(why_not.request),
+                     task_name(catalog, why_not.difference.other_task),
+                     describe_request(why_not.other_request),
+                     why_not.request.priority == why_not.other_request.priority
+                         ? ", as the later one of equal priority"
+                         : "");
+}
+
+/// " beside ARM, which this event starts": what makes the event choose between requests.
+std::string describe_cause(const CompiledCatalog& catalog, const EventRecord& record) {
+  if (record.verb != Verb::start) return {};
+  return fmt::format(" beside {}, which this event starts", task_name(catalog, record.task));
+}
+
 /// The first objective in which the alternative of an answer loses.
 std::string describe_loss(const CompiledCatalog& catalog, const EventRecord& record,
-                          const WhyNot& why_not, const State& state) {
+                          const WhyNot& why_not, std::span<const TaskId> in_question,
+                          const State& state) {
   const Configuration& chosen = record.explanation.chosen;
   const Difference& difference = why_not.difference;
   const GroupId group = record.search->group;
   const Figures figures = figures_of(catalog, group, state, chosen, why_not);
   switch (difference.criterion) {
     case Criterion::requests:
-      return fmt::format("{} requests would be satisfied, not {}", figures.other,
-                         chosen.objective.satisfied);
-    case Criterion::request_order:
-      return fmt::format("{} would not run, although its request comes before that of {}",
-                         task_name(catalog, difference.task),
-                         task_name(catalog, difference.other_task));
+      return fmt::format("{} requests would be satisfied, not {}{}", figures.other,
+                         chosen.objective.satisfied,
+                         describe_lost_requests(catalog, record, why_not, in_question, state));
+    case Criterion::request_order: {
+      const std::string rivalry = describe_rivalry(catalog, record, why_not);
+      return fmt::format("{} would not run{}{}{}; {}", task_name(catalog, difference.task),
+                         describe_cause(catalog, record), rivalry.empty() ? "" : ": ", rivalry,
+                         describe_order(catalog, why_not));
+    }
     case Criterion::canonical: {
       const LocalTask task = difference.task - catalog.group_tasks[group];
       return fmt::format(
@@ -105,19 +208,24 @@ std::string describe_decision(const CompiledCatalog& catalog, const UnexpectedTa
   switch (difference.criterion) {
     case Criterion::request_order:
       return fmt::format(
-          "by the order of requests: {} is served; with what is expected, {} at best, whose "
-          "request comes later",
-          task_name(catalog, difference.task), task_name(catalog, difference.other_task));
+          "by the order of requests: {} is served; with what is expected, {} at best, and {}",
+          task_name(catalog, difference.task), task_name(catalog, difference.other_task),
+          describe_order(catalog, why_not));
     case Criterion::canonical:
       return fmt::format("by the canonical order of {}, since all objectives are equal",
                          task_name(catalog, difference.task));
     default:
       break;
   }
-  const Figures figures = figures_of(catalog, unexpected.group, *unexpected.why_unmet.before,
-                                     unexpected.why_unmet.event->explanation.chosen, why_not);
-  return fmt::format("by {}: {}; with what is expected, {} at best", figures.naming, figures.chosen,
-                     figures.other);
+  const EventRecord& event = *unexpected.why_unmet.event;
+  const State& before = *unexpected.why_unmet.before;
+  const Figures figures =
+      figures_of(catalog, unexpected.group, before, event.explanation.chosen, why_not);
+  return fmt::format("by {}: {}; with what is expected, {} at best{}", figures.naming,
+                     figures.chosen, figures.other,
+                     difference.criterion == Criterion::requests
+                         ? describe_lost_requests(catalog, event, why_not, unexpected.tasks, before)
+                         : "");
 }
 
 /// `condition`: what would differ in the alternative ("if it ran").
@@ -130,13 +238,43 @@ Sentences describe_against(const CompiledCatalog& catalog, const EventRecord& re
   }
   if (why_not.alternative) {
     return {fmt::format("{}: {}, {}", subject, condition,
-                        describe_loss(catalog, record, why_not, state)),
+                        describe_loss(catalog, record, why_not, tasks, state)),
             {}};
   }
   std::vector<std::string> reasons = describe_reasons(catalog, record, why_not.conflict, tasks, it);
   if (reasons.empty()) return {subject + ": the event leaves no other choice", {}};
   if (reasons.size() == 1) return {fmt::format("{}: {}", subject, reasons.front()), {}};
   return {subject + ":", std::move(reasons)};
+}
+
+/// Whether all of these reasons are among the others.
+bool includes_all(std::span<const Reason> all, std::span<const Reason> some) {
+  return std::all_of(some.begin(), some.end(), [&all](const Reason& reason) {
+    return std::find(all.begin(), all.end(), reason) != all.end();
+  });
+}
+
+/// Adds why behaviors were not chosen that suit their task better, unless that is told already.
+void add_better(const CompiledCatalog& catalog, const EventRecord& record, const Why& why,
+                const State& state, Sentences& text) {
+  const TaskId first = catalog.group_tasks[record.search->group];
+  for (const BetterBehavior& better : why.better) {
+    const WhyNot& why_not = better.why_not;
+    if (!why_not.conflict.empty() && includes_all(why.why_not.conflict, why_not.conflict)) continue;
+    const std::uint32_t chosen = record.explanation.chosen.assignment[better.task - first];
+    const auto values = catalog.values[better.task];
+    const std::string subject = fmt::format(
+        "{} would suit {} better ({}, {} {})",
+        behavior_name(catalog, values[better.value_index].behavior),
+        task_name(catalog, better.task), format_percent(values[better.value_index].suitability),
+        behavior_name(catalog, values[chosen].behavior),
+        format_percent(values[chosen].suitability));
+    Sentences told = describe_against(catalog, record, subject, "but with it", why_not,
+                                      std::span(&better.task, 1), none, state);
+    if (text.more.empty()) text.first += ';';
+    text.more.push_back(std::move(told.first));
+    for (const std::string& line : told.more) text.more.push_back("  " + line);
+  }
 }
 
 /// Of some tasks those that can start without a request, and run in the alternative of an answer,
@@ -170,11 +308,6 @@ Sentences describe_due(const CompiledCatalog& catalog, const EventRecord& record
   }
   return {fmt::format("{} tries to start at {} s, but", subject, time),
           describe_reasons(catalog, record, why.why_not.conflict, tasks_of(catalog, why))};
-}
-
-std::string place_of(const CompiledCatalog& catalog, const EventRecord& event) {
-  return fmt::format("event {} at {} s ({})", event.index, format_time(event.time),
-                     describe_event(catalog, event, nullptr));
 }
 
 Sentences describe_decided(const CompiledCatalog& catalog, const UnexpectedTasks& unexpected) {
@@ -219,7 +352,58 @@ Sentences describe_decided(const CompiledCatalog& catalog, const UnexpectedTasks
   return text;
 }
 
-/// Whether what stood in the way of an event no longer does.
+/// Which running task requires another one, or none.
+TaskId find_requirer(const CompiledCatalog& catalog, const State& state, TaskId task) {
+  for (const std::uint32_t index : state.running()) {
+    const TaskId other = catalog.task_ids[index];
+    const auto requirements = catalog.requirements[state.behavior(other)];
+    if (std::any_of(
+            requirements.begin(), requirements.end(),
+            [task](const CompiledRequirement& required) { return required.task == task; })) {
+      return other;
+    }
+  }
+  return none;
+}
+
+/// "DRIVE does (robot.yaml:11), requested with priority 1 at 0.000 s"
+std::string describe_rival(const CompiledCatalog& catalog, const BlockedStart::Rival& rival,
+                           const State& state) {
+  std::string text = fmt::format("{} does{}", task_name(catalog, rival.task),
+                                 place_in_catalog(catalog, rival.line));
+  if (const Request* const request = state.find_request(rival.task)) {
+    text += request->priority == 0 ? ", which started by itself"
+                                   : fmt::format(", requested with priority {}", request->priority);
+    if (request->time) text += fmt::format(" at {} s", format_time(*request->time));
+  } else if (const TaskId requirer = find_requirer(catalog, state, rival.task); requirer != none) {
+    text += fmt::format(", which {} requires", task_name(catalog, requirer));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string place_of(const CompiledCatalog& catalog, const EventRecord& event) {
+  return fmt::format("event {} at {} s ({})", event.index, format_time(event.time),
+                     describe_event(catalog, event, nullptr));
+}
+
+std::string describe_blocked(const CompiledCatalog& catalog, const BlockedStart& start,
+                             const State& state) {
+  const bool are_requested = std::all_of(
+      start.rivals.begin(), start.rivals.end(), [&state](const BlockedStart::Rival& rival) {
+        const Request* const request = state.find_request(rival.task);
+        return request != nullptr && request->priority > 0;
+      });
+  return fmt::format(
+      "{} starts by itself only while no task that it excludes runs{}; {}; a reactive start never "
+      "stops {}",
+      task_name(catalog, start.task), are_requested ? " on request" : "",
+      join(start.rivals, ", and ",
+           [&](const BlockedStart::Rival& rival) { return describe_rival(catalog, rival, state); }),
+      start.rivals.size() == 1 ? "it" : "them");
+}
+
 bool is_over(const Reason& reason, const State& state) {
   switch (reason.kind) {
     case Reason::Kind::unavailable:
@@ -232,8 +416,6 @@ bool is_over(const Reason& reason, const State& state) {
       return false;
   }
 }
-
-}  // namespace
 
 Sentences describe_displacement(const CompiledCatalog& catalog, const EventRecord& record,
                                 const Displacement& displaced, const State& state) {
@@ -262,11 +444,13 @@ Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record
         unneeded.empty() ? std::string()
                          : fmt::format("nothing that runs requires {}; ",
                                        list_with_or(names_in_sentence(catalog, unneeded)));
-    return describe_against(catalog, record,
-                            fmt::format("why {} is {}active", behavior_name(catalog, why.behavior),
-                                        why.is_active ? "" : "not "),
-                            condition + (why.is_active ? "without it" : "with it"), why.why_not,
-                            tasks, none, state);
+    Sentences text = describe_against(
+        catalog, record,
+        fmt::format("why {} is {}active", behavior_name(catalog, why.behavior),
+                    why.is_active ? "" : "not "),
+        condition + (why.is_active ? "without it" : "with it"), why.why_not, tasks, none, state);
+    add_better(catalog, record, why, state, text);
+    return text;
   }
   const std::string name = task_name(catalog, why.task);
   std::string condition;
@@ -281,7 +465,10 @@ Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record
       why.chosen == none
           ? fmt::format("why {} does not run", name)
           : fmt::format("why {} has {}", name, printable(catalog.name_of_behavior(why.chosen)));
-  return describe_against(catalog, record, subject, condition, why.why_not, tasks, none, state);
+  Sentences text =
+      describe_against(catalog, record, subject, condition, why.why_not, tasks, none, state);
+  add_better(catalog, record, why, state, text);
+  return text;
 }
 
 std::string describe_alternative(const CompiledCatalog& catalog, const EventRecord& record,
@@ -346,14 +533,32 @@ std::vector<std::string> notes_of(const CompiledCatalog& catalog, const Unexpect
   return notes;
 }
 
-Sentences describe_unmet(const CompiledCatalog& catalog, const UnexpectedTasks& unexpected) {
+Sentences describe_unmet(const CompiledCatalog& catalog, const UnexpectedTasks& unexpected,
+                         const State& state) {
+  static const EventRecord nothing{};
   const WhyUnmet& why_unmet = unexpected.why_unmet;
   switch (why_unmet.kind) {
-    case WhyUnmet::Kind::undecided:
-      return {"no event so far has started " +
-                  list_with_or(names_in_sentence(catalog, unexpected.tasks)) +
-                  ", or what requires it",
-              {}};
+    case WhyUnmet::Kind::undecided: {
+      Sentences text;
+      text.more = describe_reasons(catalog, nothing, why_unmet.why_not.conflict, unexpected.tasks);
+      text.first = fmt::format("no event so far has started {}, or what requires it{}",
+                               list_with_or(names_in_sentence(catalog, unexpected.tasks)),
+                               text.more.empty() ? "" : ", and it cannot start by itself:");
+      return text;
+    }
+    case WhyUnmet::Kind::blocked: {
+      // That these exclude each other is told; what remains are behaviors that are unavailable.
+      Sentences text;
+      for (const Reason& reason : why_unmet.why_not.conflict) {
+        if (reason.behavior != none) {
+          text.more.push_back(describe_reason(catalog, nothing, reason));
+        }
+      }
+      text.first = join(why_unmet.blocked, "; ", [&](const BlockedStart& start) {
+        return describe_blocked(catalog, start, state);
+      });
+      return text;
+    }
     case WhyUnmet::Kind::due:
       return {fmt::format("{} is due to start by itself at {} s",
                           task_name(catalog, why_unmet.queued_task), format_time(why_unmet.due)),
@@ -365,15 +570,6 @@ Sentences describe_unmet(const CompiledCatalog& catalog, const UnexpectedTasks& 
       return describe_decided(catalog, unexpected);
   }
   return {};
-}
-
-Sentences describe_unexpected(const CompiledCatalog& catalog, const UnexpectedTasks& unexpected,
-                              const State& state) {
-  Sentences text = describe_unmet(catalog, unexpected);
-  for (std::string& note : notes_of(catalog, unexpected, state)) {
-    text.more.push_back(std::move(note));
-  }
-  return text;
 }
 
 }  // namespace cbc

@@ -44,13 +44,20 @@ struct Sentences {
 [[nodiscard]] std::vector<TaskId> differing_tasks(const CompiledCatalog& catalog, GroupId group,
                                                   const Assignment& one, const Assignment& other);
 
+/// "event 3 at 5.000 s (start HOVER, priority 1)"
+[[nodiscard]] std::string place_of(const CompiledCatalog& catalog, const EventRecord& event);
+
 /// Why tasks are not as expected: the event that decided, the objective with both values, and what
-/// differs; or what prevents it.
+/// differs; or what prevents it. `state`: the one in which the expectation does not hold.
 [[nodiscard]] Sentences describe_unmet(const CompiledCatalog& catalog,
-                                       const UnexpectedTasks& unexpected);
-/// The same, then the notes. `state`: the one in which the expectation does not hold.
-[[nodiscard]] Sentences describe_unexpected(const CompiledCatalog& catalog,
-                                            const UnexpectedTasks& unexpected, const State& state);
+                                       const UnexpectedTasks& unexpected, const State& state);
+
+/// Why a reactive task does not start by itself. `state`: in which it does not.
+[[nodiscard]] std::string describe_blocked(const CompiledCatalog& catalog,
+                                           const BlockedStart& start, const State& state);
+
+/// Whether what stood in the way of an event no longer does.
+[[nodiscard]] bool is_over(const Reason& reason, const State& state);
 
 /// What else one has to know of tasks that are not as expected: that what prevented it no longer
 /// does, and that faults of their behaviors have no effect yet. `state`: as above.

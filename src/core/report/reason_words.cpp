@@ -31,7 +31,7 @@ std::string describe_best(const CompiledCatalog& catalog, const Reason& reason) 
 }
 
 std::string place(const CompiledCatalog& catalog, const Reason& reason) {
-  return fmt::format(" ({}:{})", printable(catalog.file), reason.line);
+  return place_in_catalog(catalog, reason.line);
 }
 
 /// "day, dusk or night": the values of a variable in which a behavior fits.
@@ -58,7 +58,9 @@ std::string describe_misfit(const CompiledCatalog& catalog, const Reason& reason
 
 std::string describe_protection(const EventRecord& record, const Reason& reason) {
   if (reason.is_from_any_request) {
-    return "runs on request, and a reactive start never stops such a task";
+    return reason.priority == 0
+               ? "started by itself, and another reactive start never stops such a task"
+               : "runs on request, and a reactive start never stops such a task";
   }
   const std::int32_t level = record.search != nullptr ? record.search->protection : record.priority;
   if (record.verb == Verb::start || record.verb == Verb::stop) {

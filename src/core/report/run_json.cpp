@@ -12,23 +12,36 @@
 #include "core/report/event_description.h"
 #include "core/report/event_json.h"
 #include "core/report/explanation_words.h"
+#include "core/report/failure_explanation.h"
 #include "core/report/run_report.h"
 #include "core/report/search_stats.h"
 #include "core/report/totals_json.h"
+#include "core/report/words.h"
 #include "core/support/json.h"
 #include "core/support/json_description.h"
+#include "core/support/wording.h"
 
 namespace cbc {
 namespace json::solve {
 
-/// Why tasks are not as expected; `event`: what decided, `state`: before it.
+/// Why tasks are not as expected.
 struct Unexpected {
   const UnexpectedTasks& unexpected;
   const WhyNot& why_not;
   std::span<const Reason> conflict;
   std::span<const TaskId> tasks_in_question;
-  const State& present;
+  const FailureExplanation::Story& story;
 };
+
+namespace {
+
+std::string message_of_story(const FailureExplanation::Story& story) {
+  std::string message = join(story.sentences, "; ", message_of);
+  for (const std::string& note : story.notes) message += "; " + note;
+  return message;
+}
+
+}  // namespace
 
 constexpr auto why_of = [](const Unexpected& of) -> const WhyUnmet& {
   return of.unexpected.why_unmet;
@@ -41,7 +54,8 @@ constexpr auto unexpected =
         "expectation is worse than the chosen one, or there is none.",
         member("event", nullable(integer(1)),
                "Index of the event that decided: the last accepted one of the group, or a rejected "
-               "start or stop since. Null if there was none, or if one is still to come.",
+               "start or stop since. Null if there was none, if one is still to come, or if a "
+               "reactive task does not start since another task runs that it excludes.",
                [](const Unexpected& of) {
                  const EventRecord* const event = why_of(of).event;
                  return event != nullptr ? &event->index : nullptr;
@@ -68,16 +82,16 @@ constexpr auto unexpected =
             }),
         optional("notes", texts.at_least(1),
                  "What else one has to know, for people: that what prevented it no longer does, "
-                 "that a fault of an active behavior has no effect yet. Also at the end of the "
+                 "that nothing was decided since the situation changed, that a fault of an active "
+                 "behavior has no effect yet, when a timeout is due. Also at the end of the "
                  "message.",
-                 [](const Unexpected& of, const Decision& in) {
-                   std::vector<std::string> notes = notes_of(in.catalog, of.unexpected, of.present);
-                   return notes.empty() ? std::nullopt : std::optional(std::move(notes));
+                 [](const Unexpected& of) {
+                   return of.story.notes.empty() ? nullptr : &of.story.notes;
                  }),
-        member("message", text, sentence,
-               [](const Unexpected& of, const Decision& in) {
-                 return message_of(describe_unexpected(in.catalog, of.unexpected, of.present));
-               }))
+        member("message", text,
+               "The same as sentences for people; also when and why the tasks stopped, and that "
+               "their requests ended with that.",
+               [](const Unexpected& of) { return message_of_story(of.story); }))
         .related(R"([
       {"if": {"properties": {"alternative": {"type": "null"}}},
        "then": {"properties": {"loses": {"type": "null"},
@@ -93,24 +107,28 @@ struct OfFailure {
   struct Context {
     const CompiledCatalog& catalog;
     const Failure& failure;
+    const FailureExplanation& explanation;
   };
 
   void write(JsonWriter& json, const UnexpectedTasks& tasks, const Context& context) const {
     static const EventRecord nothing{};
     static const WhyNot no_answer{};
-    const State& present = *context.failure.state;
     const WhyUnmet& why_unmet = tasks.why_unmet;
+    const FailureExplanation::Story story = context.explanation.explain(context.failure, tasks);
     if (why_unmet.kind == WhyUnmet::Kind::decided) {
       unexpected.write(
           json,
-          Unexpected{tasks, why_unmet.why_not, why_unmet.why_not.conflict, tasks.tasks, present},
+          Unexpected{tasks, why_unmet.why_not, why_unmet.why_not.conflict, tasks.tasks, story},
           Decision{context.catalog, *why_unmet.event, *why_unmet.before});
       return;
     }
     const bool is_rejected = why_unmet.kind == WhyUnmet::Kind::rejected;
     const EventRecord& event = is_rejected ? *why_unmet.event : nothing;
-    unexpected.write(json, Unexpected{tasks, no_answer, event.conflict, {}, present},
-                     Decision{context.catalog, event, present});
+    unexpected.write(
+        json,
+        Unexpected{
+            tasks, no_answer, is_rejected ? event.conflict : why_unmet.why_not.conflict, {}, story},
+        Decision{context.catalog, event, *context.failure.state});
   }
   void put_schema(JsonWriter& json, Definitions& definitions) const {
     unexpected.put_schema(json, definitions);
@@ -131,6 +149,17 @@ constexpr auto failure = object(
            "expectations of a script.",
            &Failure::unexpected));
 
+constexpr auto success =
+    object("success", "An expectation that holds.",
+           member("index", count, "Index of the event that it follows; 0 if it comes first.",
+                  &Success::index),
+           member("line", line_number, "Line of the script, from 1.",
+                  [](const Success& of) { return of.step.range.begin.line; }),
+           member("message", text, "What was expected, for people.",
+                  [](const Success& of, const CompiledCatalog& catalog) {
+                    return describe_expectation(catalog, *of.step.expect);
+                  }));
+
 constexpr auto run_begin =
     group(member("catalog", any_text,
                  "The catalog, as given; for a compiled catalog, the name of its source.",
@@ -143,30 +172,38 @@ constexpr auto events = member("events", list(event), "All events, in order.",
 
 struct RunEnd {
   const RunResult& result;
-  const std::string& failures;  ///< as JSON
+  const std::string& successes;  ///< as JSON
+  const std::string& failures;
   const std::string& error;
 };
 
 /// The items of a list, which are JSON already.
-struct Failures {
+template <typename Item>
+struct WrittenList {
+  Item item;
+
   void write(JsonWriter& json, std::string_view items, const auto& /*context*/) const {
     json.begin('[');
     json.put_json(items);
     json.close(']');
   }
   void put_schema(JsonWriter& json, Definitions& definitions) const {
-    list(failure).put_schema(json, definitions);
+    list(item).put_schema(json, definitions);
   }
 };
 
 constexpr auto run_end = group(
     member("expectations",
            object("expectations",
-                  "How many expectations of the script hold, and what is wrong with the others.",
+                  "The expectations of the script: how many hold, which these are, and what is "
+                  "wrong with the others.",
                   member("passed", count, "", [](const RunEnd& of) { return of.result.passed; }),
                   member("failed", count, "", [](const RunEnd& of) { return of.result.failed; }),
                   member(
-                      "failures", Failures(), "",
+                      "successes", WrittenList{success}, "Those that hold, in order.",
+                      [](const RunEnd& of) -> const auto& { return of.successes; }),
+                  member(
+                      "failures", WrittenList{failure}, "Those that do not, in order.",
                       [](const RunEnd& of) -> const auto& { return of.failures; })),
            "", std::identity()),
     optional(
@@ -211,10 +248,12 @@ std::string solve_schema() {
   return json::schema("solve", "Output of cbc solve", json::solve::report);
 }
 
-void append_failure(std::string& text, const CompiledCatalog& catalog, const Failure& failure) {
+void append_failure(std::string& text, const CompiledCatalog& catalog, const Failure& failure,
+                    const FailureExplanation& explanation) {
   JsonWriter json(text);
   json.begin_item();
-  json::solve::failure.write(json, failure, json::solve::OfFailure::Context{catalog, failure});
+  json::solve::failure.write(json, failure,
+                             json::solve::OfFailure::Context{catalog, failure, explanation});
 }
 
 JsonReport::JsonReport(std::FILE* out, const EventAdditions& adds, bool is_part)
@@ -233,6 +272,8 @@ void JsonReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   json.flush();
   write(text);
   is_first_event_ = true;
+  explanation_.begin_run(catalog, script);
+  successes_.clear();
   failures_.clear();
 }
 
@@ -241,16 +282,23 @@ void JsonReport::on_event(const EventRecord& record, const Step* step, const Sta
   event_.clear();
   append_event(event_, *catalog_, record, step, state, adds_);
   write(event_);
+  explanation_.add(record, step, state);
+}
+
+void JsonReport::on_success(const Success& success) {
+  JsonWriter json(successes_);
+  json.begin_item();
+  json::solve::success.write(json, success, *catalog_);
 }
 
 void JsonReport::on_failure(const Failure& failure) {
-  append_failure(failures_, *catalog_, failure);
+  append_failure(failures_, *catalog_, failure, explanation_);
 }
 
 void JsonReport::end_run(const RunResult& result, const std::string& error) {
   std::string text = "]";
   JsonWriter json(text);
-  json::solve::run_end.write(json, json::solve::RunEnd{result, failures_, error},
+  json::solve::run_end.write(json, json::solve::RunEnd{result, successes_, failures_, error},
                              json::NoContext());
   json.close('}');
   write(text);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/report/event_json.h"
+#include "core/report/failure_explanation.h"
 #include "core/report/run_report.h"
 #include "runtime/compiled/compiled_catalog.h"
 
@@ -22,6 +23,11 @@ class JsonReport final : public SolveReport {
 
   void begin_run(const CompiledCatalog& catalog, const Script& script) override;
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
+  /// An event that is only to be known to explanations of failed expectations.
+  void leave_out(const EventRecord& record, const Step* step, const State& state) {
+    explanation_.add(record, step, state);
+  }
+  void on_success(const Success& success) override;
   void on_failure(const Failure& failure) override;
   void end_run(const RunResult& result, const std::string& error) override;
   void end() override;
@@ -42,7 +48,9 @@ class JsonReport final : public SolveReport {
   bool is_first_event_ = true;
   std::string event_;                   ///< reused, to save allocations
   std::optional<SearchTotals> totals_;  ///< if time was measured
-  std::string failures_;                ///< of the run, as JSON
+  FailureExplanation explanation_;
+  std::string successes_;  ///< expectations of the run, as JSON
+  std::string failures_;
 };
 
 }  // namespace cbc

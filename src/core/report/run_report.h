@@ -45,6 +45,10 @@ class ReportPair final : public SolveReport {
     first_.on_event(record, step, state);
     second_.on_event(record, step, state);
   }
+  void on_success(const Success& success) override {
+    first_.on_success(success);
+    second_.on_success(success);
+  }
   void on_failure(const Failure& failure) override {
     first_.on_failure(failure);
     second_.on_failure(failure);

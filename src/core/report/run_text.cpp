@@ -48,7 +48,7 @@ Table changes_table(const CompiledCatalog& catalog, const Style& style, std::siz
 
 void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
   catalog_ = &catalog;
-  explanation_.begin_run(catalog);
+  explanation_.begin_run(catalog, script);
   summary_.begin_run(catalog, script);
   script_file_ = printable(script.file);
   changes_.emplace(changes_table(catalog, style_, layout_.columns));
@@ -73,11 +73,19 @@ void TextReport::on_event(const EventRecord& record, const Step* step, const Sta
     if (!note.empty()) outcome += "; " + note;
   }
   write_event(format_time(record.time), describe_event(*catalog_, record, step), outcome);
-  if (!layout_.is_brief) {
+  if (layout_.is_brief) {
+    write_asked(record, state);
+  } else {
     if (!note.empty()) write({note, {}});
     write_details(record, state);
   }
   flush();
+}
+
+void TextReport::write_between(Microseconds time, const std::string& what,
+                               const std::vector<std::string>& reasons) {
+  write_event(format_time(time), what, {});
+  for (const std::string& reason : reasons) write({reason, {}});
 }
 
 void TextReport::write_event(const std::string& time, const std::string& event,
@@ -96,14 +104,14 @@ std::string TextReport::brief_details(const EventRecord& record) const {
   }
   for (const Change& change : record.changes) {
     // Of a rejected event all changes are undone.
-    const bool is_undone =
-        change.cause == ChangeCause::undone || record.outcome == Outcome::rejected;
-    if (is_undone && change.success) continue;
+    if (record.outcome == Outcome::rejected && change.success) continue;
     const std::string_view color =
         change.is_activation && change.success ? style_.good : style_.bad;
     text += "  " + style_.paint(color, (change.is_activation ? "+" : "-") +
                                            printable(catalog_->name_of_behavior(change.behavior)) +
-                                           (change.success ? "" : " failed"));
+                                           (!change.success                       ? " failed"
+                                            : change.cause == ChangeCause::undone ? " undone"
+                                                                                  : ""));
   }
   return text;
 }
@@ -120,7 +128,10 @@ void TextReport::write_details(const EventRecord& record, const State& state) {
   for (const Change& change : record.changes) write_change(record, change);
   if (record.outcome == Outcome::accepted) write_failed(record);
   write_stopped(record);
-  write_explanation(record, state);
+  for (const Displacement& displaced : record.explanation.displaced) {
+    write(describe_displacement(*catalog_, record, displaced, state));
+  }
+  write_asked(record, state);
   if (record.search != nullptr && record.search->elapsed) {
     text_.painted(style_.faint, text_indent + stats_line(*record.search));
   }
@@ -184,10 +195,8 @@ void TextReport::write_stopped(const EventRecord& record) {
   write({"stopped: " + join(record.stopped_tasks, ", ", name_and_cause), {}});
 }
 
-void TextReport::write_explanation(const EventRecord& record, const State& state) {
-  for (const Displacement& displaced : record.explanation.displaced) {
-    write(describe_displacement(*catalog_, record, displaced, state));
-  }
+/// The answers to --why and --alternatives.
+void TextReport::write_asked(const EventRecord& record, const State& state) {
   for (const Why& why : record.explanation.why) write(describe_why(*catalog_, record, why, state));
   write_alternatives(record, state);
 }

@@ -61,7 +61,7 @@ void write_scripts(const std::vector<RunResult>& results, Text& text);
 /// The form of a text about runs.
 struct TextLayout {
   std::size_t columns = 0;  ///< lines are wrapped to so many; 0: not at all
-  bool is_brief = false;    ///< an event is one line
+  bool is_brief = false;    ///< an event is one line, but for reasons
 };
 
 /// Writes a run for people: a line for each event, below it the changes with the columns of the
@@ -75,6 +75,9 @@ class TextReport final : public SolveReport {
   void begin_run(const CompiledCatalog& catalog, const Script& script) override;
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
   void on_failure(const Failure& failure) override;
+  /// Something that is no event, at its place among the events.
+  void write_between(Microseconds time, const std::string& what,
+                     const std::vector<std::string>& reasons);
   void on_end(const State& state) override;
   /// Errors go to standard error, not here.
   void end_run(const RunResult& result, const std::string& error) override;
@@ -92,7 +95,7 @@ class TextReport final : public SolveReport {
   void write_change(const EventRecord& record, const Change& change);
   void write_failed(const EventRecord& record);
   void write_stopped(const EventRecord& record);
-  void write_explanation(const EventRecord& record, const State& state);
+  void write_asked(const EventRecord& record, const State& state);
   void write_alternatives(const EventRecord& record, const State& state);
   void write(const Sentences& sentences);
   void flush();

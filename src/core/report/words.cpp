@@ -50,6 +50,10 @@ std::vector<std::string> names_of_behaviors(const CompiledCatalog& catalog,
   return names;
 }
 
+std::string place_in_catalog(const CompiledCatalog& catalog, std::uint32_t line) {
+  return fmt::format(" ({}:{})", printable(catalog.file), line);
+}
+
 std::string describe_value(const CompiledCatalog& catalog, VariableValue value) {
   return fmt::format("{} is {}", printable(catalog.name_of_variable(value.variable)),
                      printable(catalog.name_of_value(value)));
@@ -260,7 +264,7 @@ std::string_view stop_word(const EventRecord& record, const StoppedTask& stopped
   if (record.verb == Verb::stop && record.task == stopped.task) {
     return name_of(ChangeCause::requested);
   }
-  return name_of(stopped.had_request ? ChangeCause::displaced : ChangeCause::released);
+  return name_of(stopped.priority ? ChangeCause::displaced : ChangeCause::released);
 }
 
 std::string describe_late_fault(const CompiledCatalog& catalog, BehaviorId behavior) {
@@ -270,11 +274,33 @@ std::string describe_late_fault(const CompiledCatalog& catalog, BehaviorId behav
       behavior_name(catalog, behavior), printable(catalog.name_of_behavior(behavior)));
 }
 
+namespace {
+
+/// Who performs tasks from now on, or goes on with the started one, without a change that says so.
+std::string describe_taken_over(const CompiledCatalog& catalog, const EventRecord& record,
+                                const State& state) {
+  std::vector<std::string> sentences;
+  for (const TaskId task : record.tasks_taken_over) {
+    sentences.push_back(fmt::format("{}, which is active already, performs {}",
+                                    behavior_name(catalog, state.behavior(task)),
+                                    task_name(catalog, task)));
+  }
+  if (record.verb == Verb::start && record.changes.empty() && sentences.empty()) {
+    sentences.push_back(fmt::format("{} goes on performing {}",
+                                    behavior_name(catalog, state.behavior(record.task)),
+                                    task_name(catalog, record.task)));
+  }
+  return join(sentences, "; ");
+}
+
+}  // namespace
+
 std::string describe_note(const CompiledCatalog& catalog, const EventRecord& record,
                           const State& state) {
   if (record.verb == Verb::stop && record.outcome == Outcome::unchanged) {
     return task_name(catalog, record.task) + " does not run";
   }
+  if (record.outcome == Outcome::accepted) return describe_taken_over(catalog, record, state);
   const BehaviorId behavior = record.behavior;
   if (behavior == none) return {};
   const std::string name = behavior_name(catalog, behavior);

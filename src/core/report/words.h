@@ -37,6 +37,9 @@ namespace cbc {
 [[nodiscard]] std::vector<std::string> names_of_behaviors(const CompiledCatalog& catalog,
                                                           std::span<const BehaviorId> behaviors);
 
+/// " (robot.yaml:12)"
+[[nodiscard]] std::string place_in_catalog(const CompiledCatalog& catalog, std::uint32_t line);
+
 /// "TARGET is near"
 [[nodiscard]] std::string describe_value(const CompiledCatalog& catalog, VariableValue value);
 
@@ -82,8 +85,9 @@ namespace cbc {
 /// That a behavior, which is active, became faulty only after it was activated.
 [[nodiscard]] std::string describe_late_fault(const CompiledCatalog& catalog, BehaviorId behavior);
 
-/// What may surprise about an event: a fault of an active behavior, a finish of an inactive one, or
-/// a stop of a task that does not run. Empty for most. `state`: after the event.
+/// What may surprise about an event: a fault of an active behavior, a finish of an inactive one, a
+/// stop of a task that does not run, or that active behaviors take over tasks. Empty for most.
+/// `state`: after the event.
 [[nodiscard]] std::string describe_note(const CompiledCatalog& catalog, const EventRecord& record,
                                         const State& state);
 

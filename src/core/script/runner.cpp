@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -57,6 +59,21 @@ std::string names_or_none(const CompiledCatalog& catalog,
               [&](std::uint32_t behavior) { return quote(catalog.behavior_names[behavior]); });
 }
 
+/// Longer lists say only what differs.
+constexpr std::size_t most_names = 8;
+/// And of that no more than this.
+constexpr std::size_t most_differing = 20;
+
+/// Adds "missing: 'A', 'B'" if there are any.
+void add_names(std::string& text, std::string_view label, const CompiledCatalog& catalog,
+               std::vector<std::uint32_t> behaviors) {
+  if (behaviors.empty()) return;
+  const std::size_t count = behaviors.size();
+  behaviors.resize(std::min(count, most_differing));
+  text += fmt::format("; {}: {}", label, names_or_none(catalog, behaviors));
+  if (count > most_differing) text += fmt::format(" and {} more", count - most_differing);
+}
+
 void check_running(const Expectation::Running& expected, const CompiledCatalog& catalog,
                    const State& state, std::vector<std::string>& mismatches) {
   const TaskId task = catalog.task_ids[expected.task];
@@ -72,6 +89,29 @@ void check_running(const Expectation::Running& expected, const CompiledCatalog& 
                                    how_it_runs(catalog, state, task)));
 }
 
+void check_stopped(const std::vector<std::uint32_t>& stopped, const CompiledCatalog& catalog,
+                   const State& state, std::vector<std::string>& mismatches) {
+  std::vector<std::uint32_t> running;
+  for (const std::uint32_t index : stopped) {
+    if (state.is_running(catalog.task_ids[index])) running.push_back(index);
+  }
+  if (running.size() <= most_names / 2) {
+    for (const std::uint32_t index : running) {
+      mismatches.push_back(fmt::format("expected task {} not to run, but {}",
+                                       quote(catalog.task_names[index]),
+                                       how_it_runs(catalog, state, catalog.task_ids[index])));
+    }
+    return;
+  }
+  const std::size_t count = running.size();
+  running.resize(std::min(count, most_differing));
+  std::string text = fmt::format(
+      "expected {} not to run, but {} of them do: {}", quantity(stopped.size(), "task"), count,
+      join(running, ", ", [&](std::uint32_t index) { return quote(catalog.task_names[index]); }));
+  if (count > most_differing) text += fmt::format(" and {} more", count - most_differing);
+  mismatches.push_back(std::move(text));
+}
+
 void check_active(std::vector<std::uint32_t> expected, const CompiledCatalog& catalog,
                   const State& state, std::vector<std::string>& mismatches) {
   std::vector<std::uint32_t> active;
@@ -81,6 +121,20 @@ void check_active(std::vector<std::uint32_t> expected, const CompiledCatalog& ca
   std::sort(expected.begin(), expected.end());
   expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
   if (active == expected) return;
+  if (active.size() + expected.size() > most_names) {
+    std::vector<std::uint32_t> missing;
+    std::vector<std::uint32_t> surplus;
+    std::set_difference(expected.begin(), expected.end(), active.begin(), active.end(),
+                        std::back_inserter(missing));
+    std::set_difference(active.begin(), active.end(), expected.begin(), expected.end(),
+                        std::back_inserter(surplus));
+    std::string text = fmt::format("expected {}, but found {}",
+                                   quantity(expected.size(), "active behavior"), active.size());
+    add_names(text, "missing", catalog, std::move(missing));
+    add_names(text, "not expected", catalog, std::move(surplus));
+    mismatches.push_back(std::move(text));
+    return;
+  }
   mismatches.push_back(fmt::format("expected the active behaviors to be {}, but found {}",
                                    names_or_none(catalog, expected),
                                    names_or_none(catalog, active)));
@@ -99,13 +153,7 @@ std::string find_mismatch(const Expectation& expectation, const CompiledCatalog&
   for (const Expectation::Running& expected : expectation.running) {
     check_running(expected, catalog, state, mismatches);
   }
-  for (const std::uint32_t index : expectation.stopped) {
-    const TaskId task = catalog.task_ids[index];
-    if (!state.is_running(task)) continue;
-    mismatches.push_back(fmt::format("expected task {} not to run, but {}",
-                                     quote(catalog.task_names[index]),
-                                     how_it_runs(catalog, state, task)));
-  }
+  check_stopped(expectation.stopped, catalog, state, mismatches);
   if (expectation.active) check_active(*expectation.active, catalog, state, mismatches);
   for (const std::uint32_t index : expectation.active_includes) {
     if (state.is_active(catalog.behavior_ids[index])) continue;
@@ -160,6 +208,7 @@ void Runner::check(const Step& step) {
   std::string mismatch = find_mismatch(*step.expect, catalog_, state, outcome_);
   if (mismatch.empty()) {
     ++result_.passed;
+    listener_.on_success({index_, step});
   } else {
     ++result_.failed;
     result_.failures.push_back({step.range, mismatch});
@@ -207,6 +256,8 @@ RunResult run_script(const CompiledCatalog& catalog, const Script& script,
   of_script.last_decisions = options.last_decisions &&
                              std::any_of(script.steps.begin(), script.steps.end(),
                                          [](const Step& step) { return step.expect.has_value(); });
+  // When and why a task stopped is a part of why it does not run.
+  of_script.explain.displaced |= of_script.last_decisions;
   Runner runner(catalog, of_script, listener);
   runner.begin(script.situation);
   bool goes_on = true;

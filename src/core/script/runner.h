@@ -103,6 +103,12 @@ struct Failure {
   std::vector<UnexpectedTasks> unexpected;
 };
 
+/// An `expect` that holds.
+struct Success {
+  std::uint64_t index = 0;  ///< of the event it follows; 0: none yet
+  const Step& step;         ///< the entry of the script
+};
+
 /// Receives what happens in a run, in order.
 class RunListener {
  public:
@@ -112,6 +118,7 @@ class RunListener {
   /// Before the record of an event that took a search: see EventListener.
   virtual void on_decision(const EventRecord& /*record*/, const Circumstances& /*circumstances*/,
                            const Assignment* /*solution*/) {}
+  virtual void on_success(const Success& /*success*/) {}
   virtual void on_failure(const Failure& /*failure*/) {}
   /// After the last event, also of a run that ended early.
   virtual void on_end(const State& /*state*/) {}

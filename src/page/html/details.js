@@ -144,8 +144,8 @@ function fillDetail(elements, run, number, onChoose) {
   parts.push(...explanationElements(run, number, onChoose));
   if (event.changes.length > 0) add('Changes, in order', changeTable(run, number));
   if (event.stopped_tasks.length > 0) {
-    add('Stopped tasks', html('p', '', event.stopped_tasks
-      .map((stopped) => `${stopped.task} (${run.story.stopWord(number, stopped)})`).join(', ')));
+    add('Stopped tasks', html('ul', '', ...event.stopped_tasks.map(({task, cause, message}) =>
+      html('li', '', `${task} (${words(cause)})`, message === undefined ? '' : html('p', '', message)))));
   }
   const numbers = html('div', 'numbers');
   if (event.objective !== null) {

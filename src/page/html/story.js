@@ -130,23 +130,14 @@ class Story {
     }
   }
 
-  /** How a task stopped, as in the text: by its own finish, or as the behaviors that changes are about. */
-  stopWord(number, { task, cause }) {
-    const event = this.run.event(number);
-    const behavior = get(this.run.running(number - 1), task);
-    if (cause !== 'interrupted' || (event.verb === 'finish' && event.name === behavior)) return words(cause);
-    if (event.verb === 'stop' && event.name === task) return 'requested';
-    return get(this.run.requests(number - 1), task) === undefined ? 'released' : 'displaced';
-  }
-
   whyStopped(number, task, cause) {
+    if (cause === 'requested') return 'stopped by this event';
+    if (cause === 'released') return 'nothing requires it any more';
+    if (cause !== 'displaced') return words(cause);
     const event = this.run.event(number);
-    if (cause !== undefined && cause !== 'interrupted') return words(cause);
-    if (event.verb === 'stop' && event.name === task) return 'stopped by this event';
     const behavior = get(this.run.running(number - 1), task);
     const lost = (this.catalog.behaviors.get(behavior)?.requires ?? [])
       .filter((name) => get(event.running, name) === undefined);
-    if (get(this.run.requests(number - 1), task) === undefined) return 'nothing requires it any more';
     return lost.length > 0 ? `it requires ${this.catalog.taskList(lost)}, which does not run` : 'displaced';
   }
 

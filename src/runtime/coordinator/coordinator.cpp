@@ -213,6 +213,7 @@ void Coordinator::open_record(Origin origin, Verb verb) {
   record_.changes.clear();
   record_.tasks_of_changes.clear();
   record_.stopped_tasks.clear();
+  record_.tasks_taken_over.clear();
   record_.objective.reset();
   record_.search = nullptr;
   record_.conflict.clear();
@@ -243,6 +244,7 @@ Coordinator::Status Coordinator::start(TaskId task, std::int32_t priority,
   trigger.group = catalog_.tasks[task].group;
   trigger.task = task;
   trigger.priority = priority;
+  trigger.time = now_;
   trigger.is_reactive = is_reactive;
   if (request != nullptr && request->priority > priority) {
     return reject_by_priority(trigger, request->priority);
@@ -544,29 +546,38 @@ bool Coordinator::note_waiting(const Trigger& trigger) {
   return was_waiting && record_.changes.empty();
 }
 
+/// Whether the behavior, which may be none, was active before the event and goes on.
+bool Coordinator::was_active(BehaviorId behavior) const {
+  const std::vector<BehaviorId>& active = problem_builder_.active_before();
+  return behavior != none && std::binary_search(active.begin(), active.end(), behavior);
+}
+
 /// Gives the tasks of the group the values of the solution.
 void Coordinator::assign(const Trigger& trigger) {
   started_.clear();
   stopped_by_others_.clear();
   const TaskId first = catalog_.group_tasks[trigger.group];
   for (TaskId task = first; task < first + solution_.size(); ++task) {
+    if (state_.value_index(task) == solution_[task - first]) continue;
     const bool was_running = state_.is_running(task);
-    const bool had_request = state_.has_request(task);
+    std::optional<std::int32_t> priority;
+    if (const Request* const request = state_.find_request(task)) priority = request->priority;
     const bool has_finished = problem_builder_.has_finished(task);
     state_.set_value(task, solution_[task - first], now_);
+    if (was_active(state_.behavior(task))) record_.tasks_taken_over.push_back(task);
     if (was_running == state_.is_running(task)) continue;
     if (!was_running) {
       started_.push_back(task);
       continue;
     }
     record_.stopped_tasks.push_back(
-        {task, has_finished ? trigger.cause : FinishCause::interrupted, has_finished, had_request});
+        {task, has_finished ? trigger.cause : FinishCause::interrupted, has_finished, priority});
     const bool is_own_end =
         has_finished ? trigger.cause != FinishCause::situation_change : task == trigger.task;
     if (!is_own_end) stopped_by_others_.push_back(task);
   }
   if (trigger.kind == Trigger::Kind::start) {
-    state_.set_request(trigger.task, trigger.priority, record_.index, trigger.parameters);
+    state_.set_request(trigger.task, trigger.priority, record_.index, trigger.parameters, now_);
   }
 }
 

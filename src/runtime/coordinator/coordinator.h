@@ -136,6 +136,7 @@ class Coordinator {
   [[nodiscard]] Circumstances circumstances_of(const Trigger& trigger) const;
   Status reject(const Trigger& trigger);
   bool note_waiting(const Trigger& trigger);
+  [[nodiscard]] bool was_active(BehaviorId behavior) const;
   void assign(const Trigger& trigger);
   void update_timeouts(GroupId group);
   void update_queue();

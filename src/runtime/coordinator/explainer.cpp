@@ -393,6 +393,15 @@ std::vector<Reason> missing_requests(const CompiledCatalog& catalog,
   return reasons;
 }
 
+/// Of a task with an active request.
+RankedRequest ranked_request(const Circumstances& circumstances, TaskId task) {
+  if (task == circumstances.trigger.task) {
+    return {circumstances.trigger.priority, circumstances.trigger.time};
+  }
+  const Request& request = circumstances.state.request(task);
+  return {request.priority, request.time};
+}
+
 Reason reason_of(const Trigger& trigger) {
   Reason reason;
   reason.kind =
@@ -416,6 +425,32 @@ std::vector<Reason> find_conflict(const CompiledCatalog& catalog,
   const Demands nothing_else;
   return find_reasons(catalog, circumstances, std::span(&nothing_else, 1))
       .value_or(std::vector<Reason>());
+}
+
+Reason reason_of_unavailability(const CompiledCatalog& catalog, const State& state,
+                                BehaviorId behavior) {
+  return unavailability(catalog, state, behavior, false);
+}
+
+std::vector<Reason> reasons_of_unavailability(const CompiledCatalog& catalog, const State& state,
+                                              TaskId task) {
+  std::vector<Reason> reasons;
+  for (const Value& value : catalog.values[task]) {
+    reasons.push_back(reason_of_unavailability(catalog, state, value.behavior));
+  }
+  return reasons;
+}
+
+std::vector<Reason> hindrances_to_reactive_start(const CompiledCatalog& catalog, const State& state,
+                                                 TaskId task) {
+  if (!catalog.values[task].empty() && !state.has_available_behavior(task)) {
+    return reasons_of_unavailability(catalog, state, task);
+  }
+  Trigger start;
+  start.group = catalog.tasks[task].group;
+  start.task = task;
+  start.is_reactive = true;
+  return find_conflict(catalog, {state, start, 0, {}});
 }
 
 ObjectiveValues objectives_elsewhere(const CompiledCatalog& catalog, const State& state,
@@ -471,17 +506,10 @@ void Explainer::explain_queued(const State& state, Explanation& explanation) con
     if (why.task == none && !state.is_available(why.behavior)) continue;
     const TaskId task = why.task == none ? queued_task(state, why.behavior) : why.task;
     if (task == none || !state.queue().has(catalog_.tasks[task].catalog_index)) continue;
-    Trigger start;
-    start.group = catalog_.tasks[task].group;
-    start.task = task;
-    start.is_reactive = true;
     why.queued_task = task;
     why.due = state.queue().due(catalog_.tasks[task].catalog_index);
     why.why_not = {};
-    const bool is_unavailable =
-        !catalog_.values[task].empty() && !state.has_available_behavior(task);
-    why.why_not.conflict = is_unavailable ? reasons_of_unavailability(state, task)
-                                          : find_conflict(catalog_, {state, start, 0, {}});
+    why.why_not.conflict = hindrances_to_reactive_start(catalog_, state, task);
   }
 }
 
@@ -492,15 +520,6 @@ TaskId Explainer::queued_task(const State& state, BehaviorId behavior) const {
     if (state.queue().has(catalog_.tasks[task].catalog_index)) return task;
   }
   return none;
-}
-
-/// Why none of the behaviors of a task is available.
-std::vector<Reason> Explainer::reasons_of_unavailability(const State& state, TaskId task) const {
-  std::vector<Reason> reasons;
-  for (const Value& value : catalog_.values[task]) {
-    reasons.push_back(unavailability(catalog_, state, value.behavior, false));
-  }
-  return reasons;
 }
 
 bool Explainer::is_in_group(const Subject& subject, GroupId group) const {
@@ -535,6 +554,9 @@ void Explainer::explain_task(const Circumstances& circumstances, TaskId task,
   } else {
     why.why_not = why_not(circumstances, explanation.chosen, std::span(&otherwise, 1));
   }
+  if (index != none) {
+    explain_better(circumstances, task, index, explanation.chosen, why.better);
+  }
   explanation.why.push_back(std::move(why));
 }
 
@@ -549,13 +571,26 @@ void Explainer::explain_behavior(const Circumstances& circumstances, BehaviorId 
   for (const ValueId value : catalog_.performs[behavior]) {
     const TaskId task = catalog_.task_of(value);
     const std::uint32_t index = value - catalog_.values.begin[task];
-    if (explanation.chosen.assignment[task - first] == index) why.is_active = true;
+    if (explanation.chosen.assignment[task - first] == index) {
+      why.is_active = true;
+      explain_better(circumstances, task, index, explanation.chosen, why.better);
+    }
     with.push_back({{Demand::Kind::has, task, index}});
     without.push_back({Demand::Kind::has_not, task, index});
   }
   why.why_not = why_not(circumstances, explanation.chosen,
                         why.is_active ? std::span<const Demands>(&without, 1) : with);
   explanation.why.push_back(std::move(why));
+}
+
+/// `index`: the value that the task has.
+void Explainer::explain_better(const Circumstances& circumstances, TaskId task, std::uint32_t index,
+                               const Configuration& chosen, std::vector<BetterBehavior>& better) {
+  const auto values = catalog_.values[task];
+  for (std::uint32_t other = 0; values[other].suitability > values[index].suitability; ++other) {
+    const Demands has_it{{Demand::Kind::has, task, other}};
+    better.push_back({task, other, why_not(circumstances, chosen, std::span(&has_it, 1))});
+  }
 }
 
 WhyNot Explainer::why_not(const Circumstances& circumstances, const Configuration& chosen,
@@ -568,6 +603,10 @@ WhyNot Explainer::why_not(const Circumstances& circumstances, const Configuratio
     answer.is_cut = true;
   } else if (answer.alternative) {
     answer.difference = search_.comparison().compare(chosen, *answer.alternative);
+    if (answer.difference.criterion == Criterion::request_order) {
+      answer.request = ranked_request(circumstances, answer.difference.task);
+      answer.other_request = ranked_request(circumstances, answer.difference.other_task);
+    }
   } else if (auto reasons = find_reasons(catalog_, circumstances, ways)) {
     answer.conflict = std::move(*reasons);
     const bool is_event_alone = answer.conflict.empty() && stops_tasks(circumstances.trigger);

@@ -37,6 +37,17 @@ struct Circumstances {
 [[nodiscard]] std::vector<Reason> find_conflict(const CompiledCatalog& catalog,
                                                 const Circumstances& circumstances);
 
+/// Why a behavior is not available: it does not fit, or a script denied it, or both.
+[[nodiscard]] Reason reason_of_unavailability(const CompiledCatalog& catalog, const State& state,
+                                              BehaviorId behavior);
+/// The same of all behaviors of a task.
+[[nodiscard]] std::vector<Reason> reasons_of_unavailability(const CompiledCatalog& catalog,
+                                                            const State& state, TaskId task);
+
+/// What would hinder a task that does not run if it were to start by itself now. Empty: nothing.
+[[nodiscard]] std::vector<Reason> hindrances_to_reactive_start(const CompiledCatalog& catalog,
+                                                               const State& state, TaskId task);
+
 /// The objectives outside a group, where all requests are satisfied and nothing changes.
 [[nodiscard]] ObjectiveValues objectives_elsewhere(const CompiledCatalog& catalog,
                                                    const State& state, GroupId group);
@@ -65,14 +76,14 @@ class Explainer {
 
  private:
   [[nodiscard]] TaskId queued_task(const State& state, BehaviorId behavior) const;
-  [[nodiscard]] std::vector<Reason> reasons_of_unavailability(const State& state,
-                                                              TaskId task) const;
   [[nodiscard]] bool is_in_group(const Subject& subject, GroupId group) const;
   void explain_displaced(const Circumstances& circumstances, const Problem& problem,
                          Explanation& explanation);
   void explain_task(const Circumstances& circumstances, TaskId task, Explanation& explanation);
   void explain_behavior(const Circumstances& circumstances, BehaviorId behavior,
                         Explanation& explanation);
+  void explain_better(const Circumstances& circumstances, TaskId task, std::uint32_t index,
+                      const Configuration& chosen, std::vector<BetterBehavior>& better);
   [[nodiscard]] WhyNot why_not(const Circumstances& circumstances, const Configuration& chosen,
                                std::span<const Demands> ways);
 

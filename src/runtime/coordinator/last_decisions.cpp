@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <string_view>
+#include <tuple>
+#include <utility>
 
 namespace cbc {
 namespace {
@@ -68,7 +70,7 @@ void LastDecisions::save_state(const Circumstances& circumstances, Snapshot& bef
     entry.value_index = state.value_index(task);
     if (catalog_.tasks[task].group != group || !state.has_request(task)) continue;
     const Request& request = state.request(task);
-    entry.request = Request{request.priority, request.event, {}};
+    entry.request = Request{request.priority, request.event, {}, request.time};
   }
   before.denied.clear();
   for (BehaviorId behavior = catalog_.group_behaviors[group];
@@ -80,6 +82,19 @@ void LastDecisions::save_state(const Circumstances& circumstances, Snapshot& bef
 
 WhyUnmet LastDecisions::why_unmet(GroupId group, std::span<const Demands> ways) {
   WhyUnmet answer;
+  const auto found = decisions_.find(group);
+  if (found != decisions_.end()) {
+    const auto before = std::make_shared<State>(catalog_);
+    before->restore(found->second.before);
+    answer.before = before;
+    answer.last_event = found->second.event.index;
+  }
+  answer.blocked = find_blocked(ways, answer.before.get());
+  if (explains(answer.blocked, ways)) {
+    answer.kind = WhyUnmet::Kind::blocked;
+    answer.why_not.conflict = reasons_of(answer.blocked, ways);
+    return answer;
+  }
   for (const Demands& way : ways) {
     for (const Demand& demand : way) {
       const std::uint32_t index = catalog_.tasks[demand.task].catalog_index;
@@ -95,15 +110,145 @@ WhyUnmet LastDecisions::why_unmet(GroupId group, std::span<const Demands> ways) 
     answer.event = &rejection->event;
     return answer;
   }
-  const auto found = decisions_.find(group);
-  if (found == decisions_.end()) return answer;
+  if (found == decisions_.end()) {
+    answer.why_not.conflict = reasons_why_unavailable(ways);
+    return answer;
+  }
   answer.kind = WhyUnmet::Kind::decided;
   answer.event = &found->second.event;
-  const auto before = std::make_shared<State>(catalog_);
-  before->restore(found->second.before);
-  answer.before = before;
-  answer.why_not = explain(found->second, *before, ways);
+  answer.why_not = explain(found->second, *answer.before, ways);
   return answer;
+}
+
+/// Reactive tasks that would have to run, and those that could start by themselves since the last
+/// decision, whose start would stop what is not to run. `before`: that decision; null: none.
+std::vector<BlockedStart> LastDecisions::find_blocked(std::span<const Demands> ways,
+                                                      const State* before) const {
+  std::vector<BlockedStart> blocked;
+  const auto add = [&](TaskId task) {
+    const bool is_known =
+        std::any_of(blocked.begin(), blocked.end(),
+                    [task](const BlockedStart& other) { return other.task == task; });
+    if (is_known || catalog_.tasks[task].reactive_start == 0 || state_.is_running(task) ||
+        !state_.has_available_behavior(task)) {
+      return;
+    }
+    std::vector<BlockedStart::Rival> rivals = running_rivals(task);
+    if (!rivals.empty()) blocked.push_back({task, std::move(rivals)});
+  };
+  for (const Demands& way : ways) {
+    for (const Demand& demand : way) {
+      if (is_met(demand)) continue;
+      if (!state_.is_running(demand.task)) {
+        add(demand.task);
+        continue;
+      }
+      if (before == nullptr) continue;
+      for (const std::uint32_t clique : catalog_.task_cliques[demand.task]) {
+        for (const TaskId rival : catalog_.cliques[clique]) {
+          if (!before->has_available_behavior(rival)) add(rival);
+        }
+      }
+    }
+  }
+  return blocked;
+}
+
+std::vector<BlockedStart::Rival> LastDecisions::running_rivals(TaskId task) const {
+  std::vector<BlockedStart::Rival> rivals;
+  for (const std::uint32_t clique : catalog_.task_cliques[task]) {
+    for (const TaskId rival : catalog_.cliques[clique]) {
+      const bool is_known =
+          std::any_of(rivals.begin(), rivals.end(),
+                      [rival](const BlockedStart::Rival& other) { return other.task == rival; });
+      if (rival == task || is_known || !state_.is_running(rival)) continue;
+      rivals.push_back({rival, catalog_.clique_lines[clique]});
+    }
+  }
+  return rivals;
+}
+
+bool LastDecisions::is_met(const Demand& demand) const {
+  const std::uint32_t index = state_.value_index(demand.task);
+  switch (demand.kind) {
+    case Demand::Kind::run:
+      return index != none;
+    case Demand::Kind::stop:
+      return index == none;
+    case Demand::Kind::has:
+      return index == demand.value_index;
+    case Demand::Kind::has_not:
+      return index != demand.value_index;
+  }
+  return false;
+}
+
+/// Whether all that one of the ways lacks are starts that are blocked, and stops of their rivals.
+bool LastDecisions::explains(std::span<const BlockedStart> blocked,
+                             std::span<const Demands> ways) const {
+  const auto is_explained = [&](const Demand& demand) {
+    return is_met(demand) ||
+           std::any_of(blocked.begin(), blocked.end(), [&](const BlockedStart& start) {
+             return start.task == demand.task ||
+                    std::any_of(start.rivals.begin(), start.rivals.end(),
+                                [&](const BlockedStart::Rival& rival) {
+                                  return rival.task == demand.task;
+                                });
+           });
+  };
+  return !blocked.empty() && std::any_of(ways.begin(), ways.end(), [&](const Demands& way) {
+    return std::all_of(way.begin(), way.end(), is_explained);
+  });
+}
+
+std::vector<Reason> LastDecisions::reasons_of(std::span<const BlockedStart> blocked,
+                                              std::span<const Demands> ways) const {
+  std::vector<Reason> reasons;
+  const auto add = [&reasons](const Reason& reason) {
+    if (std::find(reasons.begin(), reasons.end(), reason) == reasons.end()) {
+      reasons.push_back(reason);
+    }
+  };
+  for (const BlockedStart& start : blocked) {
+    for (const BlockedStart::Rival& rival : start.rivals) {
+      Reason exclusion;
+      exclusion.kind = Reason::Kind::exclusive;
+      std::tie(exclusion.task, exclusion.other_task) = std::minmax(start.task, rival.task);
+      exclusion.line = rival.line;
+      add(exclusion);
+      if (!state_.has_request(rival.task)) continue;
+      Reason protection;
+      protection.kind = Reason::Kind::is_protected;
+      protection.task = rival.task;
+      protection.priority = state_.request(rival.task).priority;
+      protection.is_from_any_request = true;
+      add(protection);
+    }
+  }
+  // The behavior that should perform one of them may be unavailable as well.
+  for (const Demands& way : ways) {
+    for (const Demand& demand : way) {
+      if (demand.kind != Demand::Kind::has || is_met(demand)) continue;
+      const BehaviorId behavior = catalog_.values[demand.task][demand.value_index].behavior;
+      if (!state_.is_available(behavior)) add(reason_of_unavailability(catalog_, state_, behavior));
+    }
+  }
+  return reasons;
+}
+
+/// Of reactive tasks that should run.
+std::vector<Reason> LastDecisions::reasons_why_unavailable(std::span<const Demands> ways) const {
+  for (const Demands& way : ways) {
+    for (const Demand& demand : way) {
+      if (is_met(demand) || state_.is_running(demand.task) ||
+          catalog_.tasks[demand.task].reactive_start == 0 ||
+          state_.has_available_behavior(demand.task)) {
+        continue;
+      }
+      return reasons_of_unavailability(catalog_, state_, demand.task);
+    }
+  }
+  return {};
 }
 
 /// A rejected start of a task that does not run but should, or a rejected stop of one that should

@@ -20,10 +20,21 @@
 
 namespace cbc {
 
+/// A reactive task that does not start by itself, since tasks run that it excludes.
+struct BlockedStart {
+  struct Rival {
+    TaskId task = none;
+    std::uint32_t line = 0;  ///< of the catalog, that says so; 0 if there is none
+  };
+  TaskId task = none;
+  std::vector<Rival> rivals;
+};
+
 /// Why the tasks of a group do not meet some demands.
 struct WhyUnmet {
   enum class Kind : std::uint8_t {
     undecided,  ///< no event has decided anything about the group
+    blocked,    ///< reactive tasks would have to start, but do not: see `blocked`
     due,        ///< a task that should run is in the queue of reactive tasks
     rejected,   ///< the event that asked for it was rejected: see its conflict set
     decided     ///< the last accepted event of the group has a better answer, or no such answer
@@ -34,7 +45,12 @@ struct WhyUnmet {
   /// Of rejected and decided: the event, without its changes. Its explanation has the answer that
   /// was chosen. Valid until the next event or question.
   const EventRecord* event = nullptr;
-  WhyNot why_not;  ///< of decided
+  /// Of decided. Of blocked, and of undecided where a reactive task has no available behavior: the
+  /// conflict set alone.
+  WhyNot why_not;
+  std::uint64_t last_event = 0;  ///< the last one that was accepted in the group; 0: none
+  /// Also of decided, where they are not the whole answer.
+  std::vector<BlockedStart> blocked;
   /// Of decided: the state before the event, for what has changed in other groups since. It has
   /// what runs, and of the group also its requests.
   std::shared_ptr<const State> before;
@@ -72,6 +88,15 @@ class LastDecisions {
     Trigger::Kind kind = Trigger::Kind::start;
   };
 
+  [[nodiscard]] std::vector<BlockedStart> find_blocked(std::span<const Demands> ways,
+                                                       const State* before) const;
+  [[nodiscard]] std::vector<BlockedStart::Rival> running_rivals(TaskId task) const;
+  [[nodiscard]] bool is_met(const Demand& demand) const;
+  [[nodiscard]] bool explains(std::span<const BlockedStart> blocked,
+                              std::span<const Demands> ways) const;
+  [[nodiscard]] std::vector<Reason> reasons_of(std::span<const BlockedStart> blocked,
+                                               std::span<const Demands> ways) const;
+  [[nodiscard]] std::vector<Reason> reasons_why_unavailable(std::span<const Demands> ways) const;
   void save_state(const Circumstances& circumstances, Snapshot& before) const;
   [[nodiscard]] const Rejection* find_rejection(GroupId group, std::span<const Demands> ways) const;
   [[nodiscard]] WhyNot explain(Decision& decision, const State& before,

@@ -21,6 +21,7 @@ struct Trigger {
   BehaviorId behavior = none;  ///< of finish
   FinishCause cause = FinishCause::goal_achieved;
   std::int32_t priority = 0;    ///< of start and stop
+  Microseconds time = 0;        ///< of start: that of the request
   bool is_reactive = false;     ///< a start that may not stop a task with a request
   std::string_view parameters;  ///< that the task will have
 };

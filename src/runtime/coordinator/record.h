@@ -111,11 +111,20 @@ struct ExplanationOptions {
   [[nodiscard]] bool asks_for_any() const { return displaced || !why.empty() || alternatives > 0; }
 };
 
+/// A request among others.
+struct RankedRequest {
+  std::int32_t priority = 0;
+  std::optional<Microseconds> time;  ///< of the event that last set it, if it is known
+};
+
 /// Why something was not chosen: the best alternative with it is worse, or there is none.
 struct WhyNot {
   bool is_cut = false;  ///< a limit of effort came first, and the rest is empty
   std::optional<Configuration> alternative;
   Difference difference;  ///< between the choice and the alternative, if there is one
+  // Where the order of requests decides: those of the two tasks of the difference.
+  RankedRequest request;
+  RankedRequest other_request;
   /// If there is none, a minimal conflict set. Empty: the event alone rules it out.
   std::vector<Reason> conflict;
 };
@@ -123,6 +132,13 @@ struct WhyNot {
 /// A task with an active request that does not run any more.
 struct Displacement {
   TaskId task = none;
+  WhyNot why_not;
+};
+
+/// A behavior that suits a task better than the one it has, and why it was not chosen.
+struct BetterBehavior {
+  TaskId task = none;
+  std::uint32_t value_index = none;
   WhyNot why_not;
 };
 
@@ -138,6 +154,8 @@ struct Why {
   std::optional<Microseconds> due;
   TaskId queued_task = none;  ///< the task, or that of the behavior, which is due
   WhyNot why_not;
+  /// Of a running task, or of those of an active behavior: all better ones, the best first.
+  std::vector<BetterBehavior> better;
 };
 
 /// The explanations of one event.
@@ -172,8 +190,8 @@ struct Change {
 struct StoppedTask {
   TaskId task;
   FinishCause cause = FinishCause::interrupted;
-  bool has_finished = false;  ///< by the finish of its behavior
-  bool had_request = false;   ///< before the event
+  bool has_finished = false;             ///< by the finish of its behavior
+  std::optional<std::int32_t> priority;  ///< of its request before the event, if it had one
 };
 
 struct SearchRecord {
@@ -201,6 +219,8 @@ struct EventRecord {
   std::vector<Change> changes;
   std::vector<TaskId> tasks_of_changes;
   std::vector<StoppedTask> stopped_tasks;
+  /// Tasks with another behavior than before, which was active already: no change tells of them.
+  std::vector<TaskId> tasks_taken_over;
   std::optional<ObjectiveValues> objective;
   const SearchRecord* search = nullptr;  ///< null: there was none
   std::vector<Reason> conflict;          ///< of a rejected event: a minimal conflict set

@@ -134,7 +134,8 @@ void State::restore(const Snapshot& snapshot) {
   for (const Snapshot::RunningTask& entry : snapshot.running) {
     set_value(entry.task, entry.value_index, entry.since);
     if (const auto& request = entry.request) {
-      set_request(entry.task, request->priority, request->event, request->parameters);
+      set_request(entry.task, request->priority, request->event, request->parameters,
+                  request->time);
     }
     // At an instant before all others, so that even a timeout that is due right now is set.
     if (entry.waits_for_timeout) update_timeout(entry.task, -1);
@@ -175,12 +176,13 @@ std::vector<std::uint32_t> State::running() const {
 }
 
 void State::set_request(TaskId task, std::int32_t priority, std::uint64_t event,
-                        std::string_view parameters) {
+                        std::string_view parameters, std::optional<Microseconds> time) {
   if (!has_request(task)) ++request_count_;
   has_request_[task] = 1;
   requests_[task].priority = priority;
   requests_[task].event = event;
   requests_[task].parameters = parameters;
+  requests_[task].time = time;
 }
 
 void State::set_denied(BehaviorId behavior, bool denied) {

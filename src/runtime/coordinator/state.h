@@ -51,6 +51,7 @@ struct Request {
   std::int32_t priority = 0;
   std::uint64_t event = 0;  ///< number of the event that set it: a later one is more recent
   std::string parameters;   ///< canonical form
+  std::optional<Microseconds> time = std::nullopt;  ///< of the event; unknown in a restored state
 };
 
 struct Snapshot;
@@ -98,7 +99,7 @@ class State {
   [[nodiscard]] std::uint32_t request_count() const { return request_count_; }
   /// The task must be running.
   void set_request(TaskId task, std::int32_t priority, std::uint64_t event,
-                   std::string_view parameters);
+                   std::string_view parameters, std::optional<Microseconds> time);
 
   // Behaviors.
 

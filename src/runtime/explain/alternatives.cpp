@@ -64,6 +64,13 @@ void apply_demand(const CompiledCatalog& catalog, const Demand& demand, Problem&
   }
 }
 
+bool requires_task(const CompiledCatalog& catalog, BehaviorId behavior, TaskId task) {
+  const auto requirements = catalog.requirements[behavior];
+  return std::any_of(
+      requirements.begin(), requirements.end(),
+      [task](const CompiledRequirement& requirement) { return requirement.task == task; });
+}
+
 /// Whether the domain of a task of the group has more than one value.
 bool has_choice(const CompiledCatalog& catalog, const Problem& problem, TaskId task) {
   std::uint32_t values = problem.may_stop[task - catalog.group_tasks[problem.group]];
@@ -142,20 +149,55 @@ void ConfigurationSearch::split(Subproblem subproblem, std::size_t most,
   for (LocalTask task(0); task < subproblem.best.assignment.size(); ++task) {
     if (!has_choice(catalog_, subproblem.problem, first + task)) continue;
     const std::uint32_t index = subproblem.best.assignment[task];
-    Subproblem other;
-    other.problem = subproblem.problem;
+    Problem other = subproblem.problem;
     const bool runs = index != none;
     apply_demand(catalog_, {runs ? Demand::Kind::has_not : Demand::Kind::run, first + task, index},
-                 other.problem);
-    std::optional<Configuration> found = solve(other.problem);
+                 other);
+    add(std::move(other), most, open);
     if (is_cut_) return;
-    if (found) {
-      other.best = std::move(*found);
-      insert(std::move(other), most, open);
-    }
     apply_demand(catalog_, {runs ? Demand::Kind::has : Demand::Kind::stop, first + task, index},
                  subproblem.problem);
   }
+}
+
+/// Adds a subproblem, if it has a solution. Where a task runs for nothing in the best one, as its
+/// domain says that it runs, those solutions are left in which something requires it: one
+/// subproblem for each behavior that does, without the behaviors before.
+void ConfigurationSearch::add(Problem problem, std::size_t most, std::vector<Subproblem>& open) {
+  std::optional<Configuration> found = solve(problem);
+  if (is_cut_ || !found) return;
+  const TaskId needless = find_needless(found->assignment);
+  if (needless == none) return insert({std::move(problem), std::move(*found)}, most, open);
+  const TaskId first = catalog_.group_tasks[problem.group];
+  for (LocalTask task(0); task < found->assignment.size(); ++task) {
+    const auto values = catalog_.values[first + task];
+    for (std::uint32_t index = 0; index < values.size(); ++index) {
+      if (!requires_task(catalog_, values[index].behavior, needless)) continue;
+      Problem other = problem;
+      apply_demand(catalog_, {Demand::Kind::has, first + task, index}, other);
+      add(std::move(other), most, open);
+      if (is_cut_) return;
+      apply_demand(catalog_, {Demand::Kind::has_not, first + task, index}, problem);
+    }
+  }
+}
+
+/// A task that runs although nobody requested it and nothing that runs requires it, or none.
+TaskId ConfigurationSearch::find_needless(const Assignment& assignment) const {
+  const TaskId first = catalog_.group_tasks[whole_->group];
+  std::vector<std::uint8_t> is_needed(assignment.size(), 0);
+  for (const LocalTask task : whole_->requests) is_needed[task] = 1;
+  for (LocalTask task(0); task < assignment.size(); ++task) {
+    if (assignment[task] == none) continue;
+    const BehaviorId behavior = catalog_.values[first + task][assignment[task]].behavior;
+    for (const CompiledRequirement& requirement : catalog_.requirements[behavior]) {
+      is_needed[requirement.task - first] = 1;
+    }
+  }
+  for (LocalTask task(0); task < assignment.size(); ++task) {
+    if (assignment[task] != none && is_needed[task] == 0) return first + task;
+  }
+  return none;
 }
 
 /// Keeps the `most` best subproblems: no other can yield one of the solutions still to be listed.

@@ -93,8 +93,9 @@ class ConfigurationSearch {
   /// Meaningless if is_cut().
   [[nodiscard]] std::optional<Configuration> find_best(std::span<const Demands> ways);
 
-  /// The `count` best solutions, or all if there are fewer, `best` first. If is_cut(), only those
-  /// that are certain.
+  /// The `count` best solutions, or all if there are fewer, `best` first. Left out are those in
+  /// which a supporting task runs for nothing: that nobody requested, and nothing requires. If
+  /// is_cut(), only those that are certain.
   [[nodiscard]] std::vector<Configuration> list_best(const Assignment& best, std::size_t count);
 
   /// Whether the last answer is incomplete: the limit of effort came first.
@@ -112,6 +113,8 @@ class ConfigurationSearch {
   void begin();
   [[nodiscard]] std::optional<Configuration> solve(const Problem& problem);
   void split(Subproblem subproblem, std::size_t most, std::vector<Subproblem>& open);
+  void add(Problem problem, std::size_t most, std::vector<Subproblem>& open);
+  [[nodiscard]] TaskId find_needless(const Assignment& assignment) const;
   void insert(Subproblem subproblem, std::size_t most, std::vector<Subproblem>& open);
 
   const CompiledCatalog& catalog_;

@@ -22,12 +22,13 @@ constexpr std::string_view command = "cbc solve";
 class RunTests final : public SolveReport {
  public:
   /// `is_part`: of a report that has begun already.
-  RunTests(const TestFormat& format, std::FILE* out, bool is_part) : format_(format), out_(out) {
+  RunTests(const TestFormat& format, const ReportSettings& settings, bool is_part)
+      : format_(format), settings_(settings), out_(settings.out) {
     if (!is_part) fmt::print(out_, "{}", format_.begin(command));
   }
 
   void begin_run(const CompiledCatalog& catalog, const Script& script) override {
-    explanation_.begin_run(catalog);
+    explanation_.begin_run(catalog, script);
     suite_ = {script.file, std::string(catalog.file), {}};
     places_.clear();
     for (const Step& step : script.steps) {
@@ -50,8 +51,9 @@ class RunTests final : public SolveReport {
     const std::vector<std::string> reasons = explanation_.tell(failure);
     test.details = fmt::format("{}: {}\n{}\n", format_place(suite_.file, failure.range.begin),
                                failure.message, join(reasons, "\n"));
-    test.annotations.push_back({Severity::error, failure.range, "cbc expectation failed",
-                                failure.message + "\n" + join(reasons, "\n")});
+    const std::string more = settings_.layout.is_brief ? "" : "\n" + join(reasons, "\n");
+    test.annotations.push_back(
+        {Severity::error, failure.range, "cbc expectation failed", failure.message + more});
   }
 
   /// Expectations are checked in the order of the script, so if a run ends early, the last ones
@@ -75,7 +77,9 @@ class RunTests final : public SolveReport {
   void end() override { fmt::print(out_, "{}", format_.end); }
 
   [[nodiscard]] std::unique_ptr<SolveReport> make_part(std::FILE* out) const override {
-    return std::make_unique<RunTests>(format_, out, true);
+    ReportSettings of_part = settings_;
+    of_part.out = out;
+    return std::make_unique<RunTests>(format_, of_part, true);
   }
   void add_part(std::string_view text, const RunResult& /*result*/) override {
     fmt::print(out_, "{}", text);
@@ -83,6 +87,7 @@ class RunTests final : public SolveReport {
 
  private:
   const TestFormat& format_;
+  const ReportSettings settings_;
   std::FILE* const out_;
   FailureExplanation explanation_;
   TestSuite suite_;
@@ -91,7 +96,7 @@ class RunTests final : public SolveReport {
 
 template <const TestFormat& format>
 std::unique_ptr<SolveReport> make_tests(const ReportSettings& settings) {
-  return std::make_unique<RunTests>(format, settings.out, false);
+  return std::make_unique<RunTests>(format, settings, false);
 }
 
 template <const TestFormat& format>

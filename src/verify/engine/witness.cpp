@@ -273,6 +273,7 @@ Witness make_witness(const CompiledCatalog& catalog, const std::vector<GroupId>&
   for (std::size_t place = 0; place < moves.size(); ++place) {
     const Microseconds time = schedule.times[place + 1];
     if (moves[place].kind == Move::Kind::due) {
+      witness.due.push_back(time);
       due += fmt::format("At {} s reactive tasks try to start.\n", format_decimal(time, 6));
       continue;
     }

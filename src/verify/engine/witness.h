@@ -17,6 +17,7 @@ struct Witness {
   Script script;
   std::vector<std::string> comments;  ///< by step: lines before it
   std::string text;                   ///< of the script, with comments
+  std::vector<Microseconds> due;      ///< when the path lets the queue come due
 };
 
 /// The move as a step of a script. Not for Move::Kind::due, which the clock makes.

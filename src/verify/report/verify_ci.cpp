@@ -38,7 +38,10 @@ TestCase case_of(const VerifyResult& result, const VerifyPart& part,
   if (!property.name.empty()) message += statement;
   message += test.message;
   if (reported.replay) {
-    const std::string reasons = join(reported.replay->explanation, "\n");
+    std::vector<std::string> lines = reported.replay->idle_queue;
+    lines.insert(lines.end(), reported.replay->explanation.begin(),
+                 reported.replay->explanation.end());
+    const std::string reasons = join(lines, "\n");
     test.details += reasons + "\n\n" + answer.witness->text;
     message += "\n" + reasons;
   }
@@ -198,6 +201,7 @@ std::string verify_to_html(const VerifyResult& result) {
       item.description = describe_answer(result, part, answer);
       item.has_run = reported.replay.has_value();
       if (!item.has_run) continue;
+      for (const std::string& line : reported.replay->idle_queue) item.description += "; " + line;
       const Script& script = answer.witness->script;
       page.begin_run(catalog, script);
       page.end_run(run_script(catalog, script, {}, page), {});

@@ -1,10 +1,30 @@
+// A counterexample or witness, or the script of a difference, told event by event.
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "core/report/explanation_json.h"
 #include "core/report/failure_explanation.h"
+#include "core/report/layout.h"
+#include "core/report/reason_words.h"
 #include "core/report/run_text.h"
+#include "core/report/words.h"
+#include "core/script/runner.h"
 #include "core/support/json_description.h"
 #include "core/support/system.h"
+#include "core/support/wording.h"
+#include "runtime/coordinator/coordinator.h"
+#include "runtime/coordinator/explainer.h"
 #include "runtime/coordinator/record.h"
+#include "runtime/coordinator/state.h"
 #include "verify/report/verify_report.h"
 
 namespace cbc {
@@ -26,21 +46,27 @@ Expectation demand_of(const CompiledCatalog& catalog, const Property& property) 
 /// Writes a run in the words of `cbc solve`, and notes what led to its end.
 class ReplayListener final : public RunListener {
  public:
-  /// `property`: that the script is about, or null.
-  ReplayListener(const CompiledCatalog& catalog, const Script& script, const Property* property,
-                 const Style& style, Microseconds last_move)
-      : catalog_(catalog),
-        property_(property),
-        last_move_(last_move),
-        text_(style, memory_.stream()) {
+  ReplayListener(const CompiledCatalog& catalog, const Script& script, const Style& style)
+      : catalog_(catalog), text_(style, memory_.stream()) {
     text_.begin_run(catalog, script);
-    explanation_.begin_run(catalog);
+    explanation_.begin_run(catalog, script);
   }
 
+  /// The script is about a property.
+  void set(const Property& property, std::span<const Microseconds> due, const State& first) {
+    property_ = &property;
+    due_ = due;
+    before_.emplace(first);
+  }
+  void set_last_move(Microseconds time) { last_move_ = time; }
+
   void on_event(const EventRecord& record, const Step* step, const State& state) override {
+    tell_idle_queue(record.time);
+    has_events_ = true;
     if (record.time >= last_move_) begin_last_move();
     text_.on_event(record, step, state);
     explanation_.add(record, step, state);
+    if (before_) before_.emplace(state);
     if (record.origin != Origin::script || record.verb != Verb::start) return;
     conflict_.clear();
     JsonWriter json(conflict_);
@@ -50,10 +76,13 @@ class ReplayListener final : public RunListener {
   }
   void on_failure(const Failure& failure) override { text_.on_failure(failure); }
   void on_end(const State& state) override {
+    tell_idle_queue(std::numeric_limits<Microseconds>::max());
     begin_last_move();
     text_.on_end(state);
-    if (property_ != nullptr)
+    const bool is_told = !idle_queue_.empty() && !has_events_;
+    if (property_ != nullptr && !is_told) {
       explanation_lines_ = explanation_.tell(demand_of(catalog_, *property_));
+    }
   }
 
   Replay take(RunResult result) && {
@@ -62,8 +91,12 @@ class ReplayListener final : public RunListener {
     // The report says which script this is.
     const std::size_t title = text.find("\n\n") + 2;
     text.erase(0, title);
-    return {std::move(result), std::move(text), *last_move_begin_ - title, std::move(conflict_),
-            std::move(explanation_lines_)};
+    return {std::move(result),
+            std::move(text),
+            *last_move_begin_ - title,
+            std::move(conflict_),
+            std::move(explanation_lines_),
+            std::move(idle_queue_)};
   }
 
  private:
@@ -71,26 +104,68 @@ class ReplayListener final : public RunListener {
     if (!last_move_begin_) last_move_begin_ = memory_.size();
   }
 
+  /// The queue comes due as a move of its own, which is no event where nothing can start: it is
+  /// told nevertheless, so that there are as many moves to be seen as the report counts.
+  void tell_idle_queue(Microseconds until) {
+    for (; !due_.empty() && due_.front() < until; due_ = due_.subspan(1)) {
+      for (const TaskId task : catalog_.task_ids) {
+        const std::uint32_t index = catalog_.tasks[task].catalog_index;
+        if (!before_->queue().has(index) || before_->queue().due(index) != due_.front()) continue;
+        tell_idle(task);
+      }
+    }
+  }
+
+  void tell_idle(TaskId task) {
+    const std::vector<Reason> hindrances = hindrances_to_reactive_start(catalog_, *before_, task);
+    const std::vector<std::string> reasons =
+        describe_reasons(catalog_, EventRecord(), hindrances, std::span(&task, 1));
+    const std::string what =
+        fmt::format("{} is due, and cannot start by itself", task_name(catalog_, task));
+    text_.write_between(due_.front(), what, reasons);
+    idle_queue_.push_back(fmt::format("at {} s {}: {}", format_time(due_.front()), what,
+                                      join(reasons, "; ", without_indentation)));
+  }
+
   const CompiledCatalog& catalog_;
-  const Property* const property_;
-  const Microseconds last_move_;
+  const Property* property_ = nullptr;
+  std::span<const Microseconds> due_;  ///< of the moves that let the queue come due: still to come
+  std::optional<State> before_;        ///< the state after the event before
+  Microseconds last_move_ = 0;
   std::optional<std::size_t> last_move_begin_;
   MemoryFile memory_;
   TextReport text_;
   FailureExplanation explanation_;
   std::string conflict_ = "[]";
   std::vector<std::string> explanation_lines_;
+  std::vector<std::string> idle_queue_;
+  bool has_events_ = false;
 };
+
+Replay run(const CompiledCatalog& catalog, const Script& script, ReplayListener& listener) {
+  CoordinatorOptions options;
+  options.explain.displaced = true;
+  RunResult result = run_script(catalog, script, options, listener);
+  return std::move(listener).take(std::move(result));
+}
 
 }  // namespace
 
-Replay replay(const CompiledCatalog& catalog, const Script& script, const Property* property,
-              const Style& style, Microseconds last_move) {
-  CoordinatorOptions options;
-  options.explain.displaced = true;
-  ReplayListener listener(catalog, script, property, style, last_move);
-  RunResult result = run_script(catalog, script, options, listener);
-  return std::move(listener).take(std::move(result));
+Replay replay_witness(const CompiledCatalog& catalog, const Witness& witness,
+                      const Property& property, const Style& style) {
+  SilentRun nothing;
+  Runner beginning(catalog, options_of(witness.script), nothing);
+  beginning.begin(witness.script.situation);
+  ReplayListener listener(catalog, witness.script, style);
+  listener.set(property, witness.due, beginning.coordinator().state());
+  return run(catalog, witness.script, listener);
+}
+
+Replay replay_difference(const CompiledCatalog& catalog, const Script& script, const Style& style,
+                         Microseconds last_move) {
+  ReplayListener listener(catalog, script, style);
+  listener.set_last_move(last_move);
+  return run(catalog, script, listener);
 }
 
 }  // namespace cbc

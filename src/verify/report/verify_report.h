@@ -30,13 +30,17 @@ struct Replay {
   std::string conflict;       ///< why the last scripted start was rejected, as in cbc.solve/1
   /// What led to the end, in sentences.
   std::vector<std::string> explanation;
+  /// The reactive tasks that came due without an event, in sentences.
+  std::vector<std::string> idle_queue;
 };
 
-/// Runs a script. `property`: of which it is the counterexample or witness, or null. `last_move`:
-/// the time of the last move.
-[[nodiscard]] Replay replay(const CompiledCatalog& catalog, const Script& script,
-                            const Property* property, const Style& style,
-                            Microseconds last_move = 0);
+/// Runs a script, which is a counterexample or a witness of the property.
+[[nodiscard]] Replay replay_witness(const CompiledCatalog& catalog, const Witness& witness,
+                                    const Property& property, const Style& style);
+
+/// Runs a script of the difference between two catalogs. `last_move`: the time of the last move.
+[[nodiscard]] Replay replay_difference(const CompiledCatalog& catalog, const Script& script,
+                                       const Style& style, Microseconds last_move);
 
 /// What was found out about a property, and its script.
 struct ReportedAnswer {
