@@ -22,14 +22,14 @@ class Properties(PageCase):
         return json.loads(result.stdout)["properties"]
 
     def test_what_breaks_a_property_is_shown_at_its_end(self):
-        self.verify("broken", [{"never": {"active": ["SONAR_GUARD"]}}])
+        self.verify("broken", [{"never": {"active_includes": ["SONAR_GUARD"]}}])
         self.assertGreater(self.browser.ask("page.run.size"), 1)
         self.assertEqual(self.number(), self.browser.ask("page.run.size"))
         self.assertIn("SONAR_GUARD", self.text("#state-body"))
 
     def test_violated_properties_are_not_told_as_passed(self):
-        answers = self.verify("violated", [{"reachable": {"active": ["SONAR_GUARD"]}},
-                                           {"never": {"active": ["SONAR_GUARD"]}},
+        answers = self.verify("violated", [{"reachable": {"active_includes": ["SONAR_GUARD"]}},
+                                           {"never": {"active_includes": ["SONAR_GUARD"]}},
                                            {"always": {"stopped": ["NAVIGATE"]}, "name": "it stays"}])
         self.assertEqual([one["result"] for one in answers], ["proved", "violated", "violated"])
         self.assertIn("3 properties: 2 violated, 1 proved", self.text("#overview-summary"))
@@ -49,9 +49,9 @@ class Properties(PageCase):
 
     def test_properties_without_a_script_are_listed(self):
         answers = self.verify("all-properties", [
-            {"never": {"running": ["FETCH_SHELF"], "active": ["SONAR_GUARD"]}, "name": "no sonar there"},
-            {"never": {"active": ["SONAR_GUARD"]}},
-            {"reachable": {"running": ["FETCH_SHELF"], "active": ["SONAR_GUARD"]}, "name": "sonar there"},
+            {"never": {"running": ["FETCH_SHELF"], "active_includes": ["SONAR_GUARD"]}, "name": "no sonar there"},
+            {"never": {"active_includes": ["SONAR_GUARD"]}},
+            {"reachable": {"running": ["FETCH_SHELF"], "active_includes": ["SONAR_GUARD"]}, "name": "sonar there"},
             {"reachable": {"running": ["CHARGE"]}}])
         rows = self.browser.ask(CELLS)
         self.assertEqual(len(rows), len(answers))
@@ -72,7 +72,7 @@ class Properties(PageCase):
         self.browser.screenshot(OUT / "properties.png")
 
     def test_none_has_a_script(self):
-        answers = self.verify("proved", [{"never": {"running": ["FETCH_SHELF"], "active": ["SONAR_GUARD"]}, "name": "no sonar there"}])
+        answers = self.verify("proved", [{"never": {"running": ["FETCH_SHELF"], "active_includes": ["SONAR_GUARD"]}, "name": "no sonar there"}])
         self.assertEqual([(one["result"], one["script"]) for one in answers], [("proved", None)])
         (name, verdict), = self.browser.ask(CELLS)
         self.assertIn("no sonar there", name)
@@ -86,7 +86,7 @@ class Properties(PageCase):
             self.assert_no_findings_of_axe("proved")
 
     def test_undecided_properties_say_how_far_it_came(self):
-        answers = self.verify("undecided", [{"never": {"running": ["FETCH_SHELF"], "active": ["SONAR_GUARD"]}}], "--max-states", "5")
+        answers = self.verify("undecided", [{"never": {"running": ["FETCH_SHELF"], "active_includes": ["SONAR_GUARD"]}}], "--max-states", "5")
         self.assertEqual([one["result"] for one in answers], ["undecided"])
         (_, verdict), = self.browser.ask(CELLS)
         self.assertTrue(verdict.startswith("? undecided ended by --max-states 5"), verdict)

@@ -49,8 +49,8 @@ struct Member {
 
   template <typename Object>
   void write(JsonWriter& json, const Object& object, const auto& context) const {
-    decltype(auto) value =
-        project(projection, object, context);  // NOLINT(*-qualified-auto): may be one
+    // NOLINTNEXTLINE(readability-qualified-auto): a pointer in some of its uses
+    decltype(auto) value = project(projection, object, context);
     if constexpr (!is_optional) {
       put(json, value, context);
     } else if constexpr (requires { type.has(value); }) {
