@@ -19,8 +19,8 @@
 namespace {
 
 constexpr const char* description =
-    "Checks and compiles behavior catalogs, and solves them offline: which behaviors of a robot "
-    "should be active, proven best, on every event.";
+    "Checks and compiles behavior catalogs, and computes offline which behaviors of a robot should "
+    "be active after each event, proven to be the best choice.";
 
 constexpr const char* program_examples =
     "  cbc init robot                      a first catalog and mission\n"

@@ -69,8 +69,9 @@ constexpr const char* coverage_examples =
     "  cbc coverage robot.yaml missions/ tests/ --mutants   what they do not notice\n";
 
 constexpr const char* coverage_footer =
-    "Exit status: 0 success, 1 an expectation failed, --fail-under was missed, or not all is "
-    "known, 2 the input or the usage is wrong, 3 an internal error (please report it).\n"
+    "Exit status: 0 success, 1 an expectation failed, --fail-under was missed, or a limit "
+    "left a question open, 2 the input or the usage is wrong, 3 an internal error (please report "
+    "it).\n"
     "\n"
     "Read more: man cbc-coverage";
 
@@ -99,7 +100,7 @@ void add_coverage_command(Program& program) {
   command.add_confinement();
 
   command.group("Proofs");
-  command.flag("--prove", options->prove, "Set goals apart that no mission can reach")
+  command.flag("--prove", options->prove, "Mark the goals that no mission can reach")
       .not_with({"--mutants", "--write-missing"}, "it proves that, too");
   command
       .option("--write-missing", options->write_missing, folder(),
@@ -111,7 +112,7 @@ void add_coverage_command(Program& program) {
       .only_with_values("--format", names_in(mutants_formats()));
   command
       .option("--scripts", options->scripts, folder(),
-              "Write scripts to DIR that notice the others")
+              "Write scripts to DIR that notice these changes")
       .only_with({"--mutants"});
   const std::vector<std::string> proofs = {"--prove", "--write-missing", "--mutants"};
   command

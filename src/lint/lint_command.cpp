@@ -188,7 +188,7 @@ void add_lint_command(Program& program) {
   const std::vector<std::string> formats = names_in(lint_formats());
   const auto options = std::make_shared<LintCommand>();
   Command& command =
-      program.add_command("lint", "Finds every mistake in catalogs, with its place and its reason.",
+      program.add_command("lint", "Finds mistakes in catalogs, each with its place and its reason.",
                           {{"[OPTION...] [CATALOG...]", "--fix|--diff [OPTION...] CATALOG...",
                             "--explain RULE", "--list-rules"},
                            lint_examples,

@@ -197,6 +197,7 @@ class LogComparison {
     Microseconds time = 0;
     std::string event;
     std::string what;
+    bool is_end = false;  ///< of differences
   };
 
   void compare(const std::vector<Answer>& logged, const std::vector<Answer>& found) {
@@ -214,6 +215,17 @@ class LogComparison {
     }
   }
   [[nodiscard]] const std::vector<Line>& lines() const { return lines_; }
+  /// How many events begin a difference.
+  [[nodiscard]] std::size_t events() const {
+    std::size_t count = 0;
+    const Line* before = nullptr;
+    for (const Line& line : lines_) {
+      if (line.is_end) continue;
+      if (before == nullptr || before->time != line.time || before->event != line.event) ++count;
+      before = &line;
+    }
+    return count;
+  }
 
  private:
   /// Takes over what runs after the last answer up to this time. The answer at this time, or null.
@@ -257,7 +269,8 @@ class LogComparison {
     for (const auto& [task, words] : differences_) {
       if (!differences.contains(task)) alike.push_back(printable(task));
     }
-    if (!alike.empty()) lines_.push_back({time, what, "as in the log again: " + join(alike, ", ")});
+    if (!alike.empty())
+      lines_.push_back({time, what, "as in the log again: " + join(alike, ", "), true});
     differences_ = std::move(differences);
   }
 
@@ -368,6 +381,9 @@ class ReplayAgainst {
       before = &line;
     }
     text.add(table.text());
+    text.line("");
+    text.painted(style.bad, "{} of {} decided differently", comparison_.events(),
+                 quantity(events_, "event"));
     return text.take();
   }
 

@@ -155,7 +155,7 @@ void add_stream_options(Command& command, StreamOptions& options) {
       .option("--to-script", options.to_script, further_output("FILE"),
               "Write these events as a script")
       .only_with({"--replay"});
-  command.flag("--against", options.against, "The log is of another catalog: report what changes")
+  command.flag("--against", options.against, "LOG is of another catalog: report what changes")
       .only_with({"--replay"})
       .not_with({"--html", "--to-script", "--why", "--alternatives", "--brief"},
                 "it reports differences alone")
@@ -171,7 +171,7 @@ void add_solve_command(Program& program) {
   Command& command = program.add_command(
       "solve", "Runs event scripts on a catalog and computes proven best answers.",
       {{"[OPTION...] [CATALOG] SCRIPT...", "--format jsonl [OPTION...] CATALOG SCRIPT|-",
-        "--replay LOG [OPTION...] CATALOG"},
+        "--replay LOG [--against] [OPTION...] CATALOG"},
        solve_examples,
        solve_footer});
   command.argument("CATALOG SCRIPT", options->paths, input("...", ValueKind::catalog_or_script),

@@ -25,8 +25,10 @@ constexpr const char* verify_examples =
     "  cbc verify robot.yaml --cut-sets DRIVE    faults that together end DRIVE\n";
 
 constexpr const char* verify_footer =
-    "Exit status: 0 all properties are proved, 1 one is violated or undecided, or a limit ended an "
-    "exploration, 2 the input or the usage is wrong, 3 an internal error (please report it).\n"
+    "Exit status: 0 all properties are proved, 1 one is violated or undecided, the catalogs "
+    "differ, "
+    "or a limit ended an exploration, 2 the input or the usage is wrong, 3 an internal error "
+    "(please report it).\n"
     "\n"
     "Read more: man cbc-verify";
 

@@ -269,7 +269,7 @@ class Call {
     if (file.path.empty()) file.path = "refused";
     for (const TaskId task : *tasks) {
       Property& property = file.properties.emplace_back();
-      property.name = fmt::format("{} can start", catalog_.name_of_task(task));
+      property.name = fmt::format("a start of {} is never refused", catalog_.name_of_task(task));
       property.line = file.properties.size();  // there is none
       property.task = task;
     }

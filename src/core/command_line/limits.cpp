@@ -81,7 +81,7 @@ std::vector<Option*> add_state_limits(Command& command, StateLimits& limits) {
           &command.option("--max-memory", limits.max_memory, memory_size(),
                           "End it at this size of its states, such as 8G"),
           &command.option("--time-limit", limits.time_limit, seconds(),
-                          "End it, and other long work, after this time")};
+                          "Stop all searches after this time")};
 }
 
 }  // namespace cbc::cli

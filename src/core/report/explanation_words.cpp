@@ -419,9 +419,20 @@ bool is_over(const Reason& reason, const State& state) {
 
 Sentences describe_displacement(const CompiledCatalog& catalog, const EventRecord& record,
                                 const Displacement& displaced, const State& state) {
-  return describe_against(catalog, record, task_name(catalog, displaced.task) + " stops",
-                          "if it ran", displaced.why_not, std::span(&displaced.task, 1),
-                          displaced.task, state);
+  Sentences text =
+      describe_against(catalog, record, task_name(catalog, displaced.task) + " stops", "if it ran",
+                       displaced.why_not, std::span(&displaced.task, 1), displaced.task, state);
+  const bool is_start = record.verb == Verb::start && record.origin == Origin::script;
+  const auto stopped =
+      std::find_if(record.stopped_tasks.begin(), record.stopped_tasks.end(),
+                   [&](const StoppedTask& stop) { return stop.task == displaced.task; });
+  const bool are_equal = stopped != record.stopped_tasks.end() && record.priority > 0 &&
+                         stopped->priority == record.priority;
+  if (is_start && are_equal && !displaced.why_not.alternative) {
+    text.first +=
+        fmt::format("; both have priority {}, and the later request goes first", record.priority);
+  }
+  return text;
 }
 
 std::vector<TaskId> tasks_of(const CompiledCatalog& catalog, const Why& why) {

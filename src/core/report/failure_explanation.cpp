@@ -354,7 +354,9 @@ bool FailureExplanation::tell_stop(TaskId task, std::uint64_t told,
     std::string line = fmt::format("{} stopped with {}", task_name(*catalog_, task), stop.what);
     if (stop.priority > 0) {
       line += fmt::format(", and its request (priority {}) ended there", stop.priority);
-      if (catalog_->tasks[task].start_on_request != 0) line += "; request it again";
+      // Of the last event another answer was expected, not another event.
+      const bool helps = stop.event != last_->index && catalog_->tasks[task].start_on_request != 0;
+      if (helps) line += "; request it again";
     }
     if (!stop.timeout.empty()) line += "; " + stop.timeout;
     lines.push_back({std::move(line), {}});

@@ -41,12 +41,17 @@ void add_list(const CatalogCoverage& coverage, std::string_view heading,
   }
 }
 
+/// Whether many goals are missed.
+bool is_long(const CatalogCoverage& coverage) {
+  constexpr std::size_t few_goals = 20;
+  const GoalCount total = coverage.total();
+  return total.goals - total.met > few_goals;
+}
+
 /// Where long lists of missed goals begin.
 void add_first_goals(const CatalogCoverage& coverage, Text& text) {
-  constexpr std::size_t few_goals = 20;
   constexpr std::size_t shown = 10;
-  const GoalCount total = coverage.total();
-  if (total.goals - total.met <= few_goals) return;
+  if (!is_long(coverage)) return;
   text.line("");
   text.line("begin with these, which guard the most: no mission shows that");
   for (const std::uint32_t goal : first_goals(coverage, shown)) {
@@ -67,7 +72,8 @@ void add_catalog(const CatalogCoverage& coverage, Text& text) {
     text.line(incomplete_proof);
   }
   add_first_goals(coverage, text);
-  add_list(coverage, "no mission shows that", &CatalogCoverage::is_missed, text);
+  add_list(coverage, is_long(coverage) ? "all that no mission shows" : "no mission shows that",
+           &CatalogCoverage::is_missed, text);
   add_list(coverage, "under these assumptions no mission can show, and so it does not count, that",
            &CatalogCoverage::is_unreachable, text);
 }

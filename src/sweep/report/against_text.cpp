@@ -27,12 +27,13 @@ void add_names(const SweepResult& result, Text& text) {
   add("only " + printable(result.catalog) + " has", names.only_new);
 }
 
-void add_differences(const SweptComparison& comparison, Text& text) {
+void add_differences(const SweptComparison& comparison, const std::string& new_catalog,
+                     Text& text) {
   constexpr std::size_t most_shown = 20;
   text.line("");
   Table table(text.style(), {number_column("sequences", 9, 0),
                              number_column("after events", 14, 0),
-                             {"decided differently"}});
+                             {"with " + printable(new_catalog)}});
   const std::size_t shown = std::min(comparison.differences.size(), most_shown);
   for (std::size_t place = 0; place < shown; ++place) {
     const SweptDifference& difference = comparison.differences[place];
@@ -43,7 +44,7 @@ void add_differences(const SweptComparison& comparison, Text& text) {
     text.line("  and {} more", comparison.differences.size() - shown);
   }
   text.line("");
-  text.line("After events: of the shortest script; --scripts DIR writes them.");
+  text.line("after events: the length of the shortest script that shows it (--scripts DIR)");
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ std::string against_to_text(const SweepResult& result, const Style& style) {
     add(style.bad, "decided differently",
         fmt::format(" in {} of {}", comparison.sequences,
                     quantity(result.settings.sequences, "sequence")));
-    add_differences(comparison, text);
+    add_differences(comparison, result.catalog, text);
   } else if (comparison.events == 0) {
     add(style.bad, "nothing was compared", ": no start, stop or finish comes in both");
   } else {
