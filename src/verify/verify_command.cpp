@@ -1,14 +1,10 @@
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
-
-#include <fmt/core.h>
 
 #include "commands.h"
 #include "core/command_line/command_line.h"
 #include "core/files/output.h"
-#include "runtime/base/text.h"
 #include "verify/report/verify_report.h"
 #include "verify/verify.h"
 
@@ -16,28 +12,9 @@ namespace cbc::cli {
 
 namespace {
 
-/// Two words with an equals sign between them.
-Values pair_of_words(const std::string& placeholder, std::string expected,
-                     const std::string& example) {
-  Values values;
-  values.placeholder = placeholder;
-  values.expected = std::move(expected);
-  values.check = [placeholder, example](const std::string& text) -> std::string {
-    const std::size_t equals = text.find('=');
-    if (equals != 0 && equals != std::string::npos && equals + 1 < text.size()) return {};
-    return fmt::format("expected {}, such as {}, found {}", placeholder, example, quote(text));
-  };
-  return values;
-}
-
 Values situation_entry() {
   return pair_of_words("KEY=VALUE", "a situation variable or a behavior, and its value",
                        "GPS_SIGNAL=false");
-}
-
-Values old_and_new_name() {
-  return pair_of_words("OLD=NEW", "the names of a task, behavior or variable in both catalogs",
-                       "LAND=DESCEND");
 }
 
 constexpr const char* verify_examples =

@@ -49,6 +49,24 @@ std::string join_with_or(const std::vector<std::string>& words) {
   return list_with_or(quoted);
 }
 
+Values pair_of_words(const std::string& placeholder, std::string expected,
+                     const std::string& example) {
+  Values values;
+  values.placeholder = placeholder;
+  values.expected = std::move(expected);
+  values.check = [placeholder, example](const std::string& text) -> std::string {
+    const std::size_t equals = text.find('=');
+    if (equals != 0 && equals != std::string::npos && equals + 1 < text.size()) return {};
+    return fmt::format("expected {}, such as {}, found {}", placeholder, example, quote(text));
+  };
+  return values;
+}
+
+Values old_and_new_name() {
+  return pair_of_words("OLD=NEW", "the names of a task, behavior or variable in both catalogs",
+                       "LAND=DESCEND");
+}
+
 Values name_of(std::string placeholder, ValueKind kind) {
   // In the order of the enumerators.
   static constexpr std::array<const char*, 8> expected = {"a value",

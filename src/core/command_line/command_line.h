@@ -69,6 +69,12 @@ struct Values {
 [[nodiscard]] Values folder();
 /// Of a task or behavior, or of a file that need not exist.
 [[nodiscard]] Values name_of(std::string placeholder, ValueKind kind);
+/// Of two words with an equals sign between them, which `placeholder` shows; for complaints, what
+/// they are, and an example.
+[[nodiscard]] Values pair_of_words(const std::string& placeholder, std::string expected,
+                                   const std::string& example);
+/// Of OLD=NEW, where a newer catalog has another name for the same.
+[[nodiscard]] Values old_and_new_name();
 [[nodiscard]] Values one_of(std::string placeholder, std::vector<std::string> choices);
 [[nodiscard]] Values whole_number(std::string placeholder, std::int64_t least,
                                   std::int64_t most = std::numeric_limits<std::int64_t>::max());

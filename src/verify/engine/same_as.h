@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/compile/renames.h"
 #include "core/property/properties.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "verify/engine/explore.h"
@@ -17,18 +18,6 @@ namespace cbc {
 // Whether two catalogs decide every reachable event alike (docs/verify.md, "Two catalogs"). Tasks,
 // behaviors, variables and their values are the same if they have the same name, or if one was
 // renamed to the other.
-
-/// What was renamed: numbers of the old catalog and of the new one. Each number stands once.
-struct Renames {
-  std::vector<std::pair<TaskId, TaskId>> tasks;
-  std::vector<std::pair<BehaviorId, BehaviorId>> behaviors;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> variables;
-};
-
-/// Adds what both names stand for: tasks, behaviors, variables. Returns what is wrong, or nothing.
-[[nodiscard]] std::string add_rename(const CompiledCatalog& old_catalog,
-                                     const CompiledCatalog& new_catalog, std::string_view old_name,
-                                     std::string_view new_name, Renames& renames);
 
 /// What is not the same in two catalogs by itself, each in words: "task LAND", "value dark of
 /// LIGHT"; "task LAND: DESCEND" if it was renamed.
