@@ -15,6 +15,7 @@
   row(coverage) \
   row(sweep) \
   row(graph) \
+  row(rename) \
   row(schema) \
   row(help) \
   row(completion)

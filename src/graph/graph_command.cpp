@@ -319,13 +319,12 @@ struct ComparedCatalogs {
   std::shared_ptr<const CompiledCatalog> before;
   std::shared_ptr<const CompiledCatalog> after;
   CatalogDiff diff;
-  draw::CatalogGraph graph;
+  draw::CatalogGraph graph;            ///< not of a text
+  std::vector<FittingChange> fitting;  ///< of a text
 };
 
-/// Reads and compares two catalogs, compiled or YAML. Null, after a message, if one of them cannot
-/// be used.
-std::unique_ptr<const ComparedCatalogs> read_and_compare(const std::string& before,
-                                                         const std::string& after) {
+/// Reads two catalogs, compiled or YAML. Null, after a message, if one of them cannot be used.
+std::unique_ptr<ComparedCatalogs> read_both(const std::string& before, const std::string& after) {
   auto compared = std::make_unique<ComparedCatalogs>();
   FileSet files;
   const auto old_catalog = files.load(before);
@@ -334,9 +333,38 @@ std::unique_ptr<const ComparedCatalogs> read_and_compare(const std::string& befo
   if (old_catalog == nullptr || new_catalog == nullptr) return nullptr;
   compared->before = old_catalog->compiled;
   compared->after = new_catalog->compiled;
-  compared->diff = compare_catalogs(*compared->before, *compared->after);
-  compared->graph = draw::to_graph(*compared->before, *compared->after, compared->diff);
   return compared;
+}
+
+/// For a text: what was renamed is told as such. Programs and drawings have it by both names.
+/// Returns whether what the command line says of it can be used.
+bool compare_for_people(const std::vector<std::string>& renamed, ComparedCatalogs& compared) {
+  const CompiledCatalog& before = *compared.before;
+  const CompiledCatalog& after = *compared.after;
+  Renames renames;
+  for (const std::string& entry : renamed) {
+    const std::size_t equals = entry.find('=');
+    const std::string old_name = entry.substr(0, equals);
+    const std::string new_name = entry.substr(equals + 1);
+    const std::string fault = add_rename(before, after, old_name, new_name, renames);
+    if (!fault.empty()) {
+      complain("--renamed: {}", fault);
+      return false;
+    }
+    const bool is_taken =
+        (task_called(before, old_name) && task_called(before, new_name)) ||
+        (behavior_called(before, old_name) && behavior_called(before, new_name)) ||
+        (variable_called(before, old_name) && variable_called(before, new_name));
+    if (is_taken) {
+      complain("--renamed: {} has both {} and {}", quote(before.file), quote(old_name),
+               quote(new_name));
+      return false;
+    }
+  }
+  renames = find_renames(before, after, renames);
+  compared.diff = compare_catalogs(before, after, renames);
+  compared.fitting = compare_fitting(before, after, renames);
+  return true;
 }
 
 constexpr const char* graph_examples =
@@ -357,6 +385,7 @@ constexpr std::size_t most_mermaid_edges = 500;  // by default
 struct GraphCommand {
   std::vector<std::string> catalogs;
   bool is_diff = false;
+  std::vector<std::string> renamed;  ///< OLD=NEW
   std::optional<std::string> output;
   std::string format;
   DrawingOptions drawing;
@@ -428,6 +457,9 @@ std::string find_misuse(const GraphCommand& command) {
   }
   if (catalogs == 0 && !command.state.script) return "expected a catalog";
   if (is_table(command)) return find_misuse_of_table(command);
+  if (!command.renamed.empty() && format != text_format) {
+    return "--renamed can only be used with --format text";
+  }
   if (!command.is_diff && format == text_format) {
     return "--format text can only be used with --diff or a --view that is a table";
   }
@@ -521,7 +553,8 @@ int show_diff(const ComparedCatalogs& compared, const GraphCommand& command) {
   const std::string format = format_of(command);
   if (format == text_format) {
     const Style style = style_for(output_of(command));
-    return write_output(output_of(command), diff_text(diff, style));
+    return write_output(output_of(command),
+                        diff_text(diff, style) + fitting_text(compared.fitting, style));
   }
   if (format == "json") {
     return write_output(output_of(command),
@@ -534,8 +567,14 @@ int show_diff(const ComparedCatalogs& compared, const GraphCommand& command) {
 }
 
 int draw_diff(const GraphCommand& command) {
-  const auto compared = read_and_compare(command.catalogs.front(), command.catalogs.back());
+  const auto compared = read_both(command.catalogs.front(), command.catalogs.back());
   if (compared == nullptr) return exit_unusable;
+  if (format_of(command) == text_format) {
+    if (!compare_for_people(command.renamed, *compared)) return exit_unusable;
+  } else {
+    compared->diff = compare_catalogs(*compared->before, *compared->after);
+    compared->graph = draw::to_graph(*compared->before, *compared->after, compared->diff);
+  }
   const int status = show_diff(*compared, command);
   return status == exit_ok && compared->diff.size() > 0 ? exit_no : status;
 }
@@ -562,6 +601,10 @@ void add_graph_command(Program& program) {
   command.argument("CATALOG", options->catalogs, input("", ValueKind::catalog),
                    "The catalog: YAML or compiled, or - for standard input");
   command.flag("--diff", options->is_diff, "Show the differences between two catalogs");
+  command
+      .option("--renamed", options->renamed, old_and_new_name(),
+              "With --diff: OLD is called NEW now; repeatable")
+      .only_with({"--diff"});
   command.option("-o,--output", options->output, output("OUT"),
                  "The file to write, or - for standard output (default)");
   command.option("--format", options->format, one_of("FORMAT", formats), format_help);

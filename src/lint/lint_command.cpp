@@ -1,11 +1,9 @@
 #include <algorithm>
-#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <set>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -15,6 +13,7 @@
 #include "core/command_line/command_line.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/diagnostic/rules.h"
+#include "core/files/file_search.h"
 #include "core/files/output.h"
 #include "core/files/read.h"
 #include "core/support/wording.h"
@@ -73,41 +72,13 @@ std::string find_misuse(const LintCommand& command) {
   return {};
 }
 
-/// A file to lint.
-struct Target {
-  std::string path;
-  bool is_named = false;  ///< on the command line, so it is linted whatever it is
-  std::string folder;     ///< on the command line that contains the file, or empty
-};
-
-/// The files of all paths, each once. Prints which folders cannot be read.
-std::vector<Target> find_targets(const std::vector<std::string>& paths, bool& has_failed) {
-  std::vector<Target> targets;
-  std::unordered_map<std::string, std::size_t> places;
-  const auto target_of = [&](const std::string& path) -> Target& {
-    const auto [known, is_new] = places.try_emplace(path, targets.size());
-    if (is_new) targets.push_back({path, false, {}});
-    return targets[known->second];
-  };
-  for (const std::string& path : paths) {
-    if (!is_folder(path)) {
-      target_of(path).is_named = true;
-    } else {
-      for (const std::string& file : list_folder(path, {".yaml", ".yml"}, has_failed)) {
-        target_of(file).folder = path;
-      }
-    }
-  }
-  return targets;
-}
-
 /// Lints everything. Returns whether each path had something to lint.
 bool lint_all(const LintCommand& command, Linter& linter) {
   bool has_failed = false;
-  const std::vector<Target> targets = find_targets(command.paths, has_failed);
+  const std::vector<FoundFile> targets = find_files(command.paths, {".yaml", ".yml"}, has_failed);
   std::set<std::string> folders_of_named;
   Progress progress("linting", targets.size() + command.scripts.size());
-  for (const Target& target : targets) {
+  for (const FoundFile& target : targets) {
     progress.begin(target.path);
     if (target.is_named) {
       linter.lint_catalog(target.path);

@@ -11,18 +11,15 @@
 #include "core/diagnostic/diagnostic.h"
 #include "core/diagnostic/rules.h"
 #include "core/files/output.h"
+#include "core/files/replace.h"
 #include "core/property/property_reader.h"
 #include "core/script/reader.h"
+#include "core/support/line_diff.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 
 namespace cbc::cli {
 namespace {
-
-/// The same for './robot.yaml' and 'robot.yaml'.
-std::filesystem::path folder_of(const std::filesystem::path& path) {
-  return path.lexically_normal().parent_path();
-}
 
 /// What to do about a catalog that cannot be used, behind a message that says so.
 std::string advice_on(FileSet::Fault fault, const std::string& path) {
@@ -92,7 +89,8 @@ void Linter::lint_found() {
     const InputFile& file = *found.file;
     // A script that is not valid YAML needs none.
     const bool needs_catalog = file.document != nullptr && !catalog_named_by(file);
-    const std::string catalog = needs_catalog ? catalog_beside(found) : std::string();
+    const std::string catalog =
+        needs_catalog ? catalogs_.beside(file.path, found.folder) : std::string();
     if (needs_catalog && catalog.empty()) {
       unchecked.push_back(quote(file.path));
       continue;
@@ -104,20 +102,6 @@ void Linter::lint_found() {
   complain("not checked, as {} no catalog, and there is not exactly one beside {}: {}",
            unchecked.size() == 1 ? "it names" : "they name", unchecked.size() == 1 ? "it" : "them",
            join(unchecked, ", "));
-}
-
-/// The only catalog in the nearest folder that has catalogs: the file's own one, or one above it
-/// that was linted, too. Empty if there is none, or several.
-std::string Linter::catalog_beside(const Found& found) const {
-  const std::filesystem::path top = folder_of(std::filesystem::path(found.folder) / "any");
-  std::filesystem::path folder = folder_of(found.file->path);
-  for (;;) {
-    if (const auto known = catalogs_in_.find(folder); known != catalogs_in_.end()) {
-      return known->second.size() == 1 ? known->second.front() : std::string();
-    }
-    if (folder == top || !folder.has_relative_path()) return {};
-    folder = folder.parent_path();
-  }
 }
 
 /// A compiled catalog has no text to lint.
@@ -143,7 +127,7 @@ void Linter::lint_catalog(File file) {
     return;
   }
   if (file->is(FileKind::script) || file->is(FileKind::properties)) return lint_script(*file, "");
-  catalogs_in_[folder_of(file->path)].push_back(file->path);
+  catalogs_.add(file->path);
   auto catalog = std::make_shared<CheckedCatalog>(check(*file, *settings));
   if (is_to_fix()) fix(file, *catalog, *settings);
   note_tasks(catalog->reading.catalog, *settings);
@@ -209,9 +193,10 @@ void Linter::fix(File& file, CheckedCatalog& catalog, const SeveritySettings& se
     has_internal_error_ = true;
     return;
   }
+  const Replacement replacement{file->path, file->text, *fixed_file->text};
   if (command_.diff) {
     diff_ += unified_diff(*file->text, *fixed_file->text, file->name);
-  } else if (!write_fixed(*file, *fixed_file->text)) {
+  } else if (replace_inputs({&replacement, 1}) != exit_ok) {
     has_failed_ = true;
     return;
   } else {
@@ -221,16 +206,6 @@ void Linter::fix(File& file, CheckedCatalog& catalog, const SeveritySettings& se
   }
   file = std::move(fixed_file);
   catalog = std::move(fixed);
-}
-
-bool Linter::write_fixed(const InputFile& before, const std::string& after) {
-  const std::optional<std::string> now = read_input(before.path);
-  if (!now) return false;
-  if (*now != *before.text) {
-    complain("{} has changed in the meantime; it is not overwritten", quote(before.path));
-    return false;
-  }
-  return replace_input(before.path, after) == exit_ok;
 }
 
 void Linter::lint_script(const std::string& path, const std::string& catalog) {

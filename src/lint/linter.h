@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
@@ -12,6 +11,7 @@
 
 #include "core/catalog/catalog.h"
 #include "core/check/check.h"
+#include "core/files/file_search.h"
 #include "core/files/file_set.h"
 #include "lint/report/lint_report.h"
 
@@ -84,8 +84,6 @@ class Linter {
   [[nodiscard]] CheckedCatalog check(const InputFile& file, const SeveritySettings& settings) const;
   [[nodiscard]] bool convert(File& file, CheckedCatalog& catalog, const SeveritySettings& settings);
   void fix(File& file, CheckedCatalog& catalog, const SeveritySettings& settings);
-  [[nodiscard]] std::string catalog_beside(const Found& found) const;
-  [[nodiscard]] static bool write_fixed(const InputFile& before, const std::string& after);
   [[nodiscard]] std::shared_ptr<const CheckedCatalog> catalog_of(const InputFile& file,
                                                                  const std::string& given);
   void lint_script(const InputFile& file, const std::string& catalog);
@@ -109,8 +107,7 @@ class Linter {
   std::map<std::string, NamedTasks> named_tasks_;
   std::vector<Found> found_;
   std::set<std::string> checked_folders_;
-  /// The catalogs that were linted, by folder.
-  std::map<std::filesystem::path, std::vector<std::string>> catalogs_in_;
+  CatalogFolders catalogs_;  ///< those that were linted
   std::string diff_;
   bool has_failed_ = false;
   bool has_internal_error_ = false;

@@ -1,7 +1,10 @@
 #include "graph/engine/catalog_diff.h"
 
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -138,6 +141,104 @@ TEST(CatalogDiff, ListsTheSameExclusionsWhateverTheOrder) {
   ASSERT_GT(compare_catalogs(compiled(none), compiled(up)).further_exclusions, 0U);
   EXPECT_TRUE(text_of(none, up) == text_of(none, down));
   EXPECT_TRUE(text_of(up, none) == text_of(down, none));
+}
+
+/// As `cbc graph --diff --format text` has it. `given`: what --renamed says.
+std::string people_text(const std::string& before, const std::string& after,
+                        const std::vector<std::pair<std::string, std::string>>& given = {}) {
+  const CompiledCatalog old_catalog = compiled(before);
+  const CompiledCatalog new_catalog = compiled(after);
+  Renames renames;
+  for (const auto& [from, to] : given) {
+    EXPECT_EQ(add_rename(old_catalog, new_catalog, from, to, renames), "");
+  }
+  renames = find_renames(old_catalog, new_catalog, renames);
+  return diff_text(compare_catalogs(old_catalog, new_catalog, renames), plain_style()) +
+         fitting_text(compare_fitting(old_catalog, new_catalog, renames), plain_style());
+}
+
+std::string with(std::string text, std::string_view old, std::string_view by) {
+  for (std::size_t at = 0; (at = text.find(old, at)) != std::string::npos; at += by.size()) {
+    text.replace(at, old.size(), by);
+  }
+  return text;
+}
+
+const std::string rover =
+    "situation:\n"
+    "- {variable: DOOR, values: [open, closed]}\n"
+    "behaviors:\n"
+    "- {behavior: WHEELS, task: DRIVE, suitability: 90, situation: {DOOR: open}}\n"
+    "- {behavior: TRACKS, task: DRIVE, suitability: 60}\n"
+    "- {behavior: BRING, task: DELIVER, requires: [{task: DRIVE, minimum_performance: 50}]}\n"
+    "- {behavior: BROOM, task: CLEAN}\n"
+    "exclusivity_constraints:\n"
+    "- mutually_exclusive: [DELIVER, CLEAN]\n";
+
+TEST(CatalogDiff, SeesARenameAsOne) {
+  EXPECT_EQ(people_text(rover, with(rover, "DRIVE", "MOVE")), "~ task DRIVE renamed to MOVE\n");
+  EXPECT_EQ(people_text(rover, with(rover, "WHEELS", "FOUR_WHEELS")),
+            "~ behavior WHEELS renamed to FOUR_WHEELS\n");
+  EXPECT_EQ(people_text(rover, with(rover, "DOOR", "GATE")),
+            "~ situation variable DOOR renamed to GATE\n");
+  EXPECT_EQ(people_text(rover,
+                        with(with(with(rover, "DRIVE", "MOVE"), "WHEELS", "FEET"), "DOOR", "GATE")),
+            "~ task DRIVE renamed to MOVE\n"
+            "~ behavior WHEELS renamed to FEET\n"
+            "~ situation variable DOOR renamed to GATE\n");
+}
+
+TEST(CatalogDiff, SeesNoRenameOfAnotherContent) {
+  EXPECT_EQ(people_text(rover, with(with(rover, "CLEAN", "WASH"), "BROOM, task: WASH",
+                                    "BROOM, task: WASH, suitability: 80")),
+            "- task CLEAN\n"
+            "+ task WASH\n"
+            "- BROOM performs CLEAN: suitability 100 %\n"
+            "+ BROOM performs WASH: suitability 80 %\n"
+            "- CLEAN excludes DELIVER\n"
+            "+ DELIVER excludes WASH\n");
+  // A new thing with the content of what is still there is new.
+  EXPECT_EQ(people_text(rover, with(rover, "BROOM, task: CLEAN}\n",
+                                    "BROOM, task: CLEAN}\n- {behavior: MOP, task: CLEAN}\n")),
+            "+ behavior MOP\n"
+            "+ MOP performs CLEAN: suitability 100 %\n");
+}
+
+TEST(CatalogDiff, DoesNotGuessWhichOfSeveralWasRenamed) {
+  const std::string two = "behaviors:\n- {behavior: A, task: T}\n- {behavior: B, task: T}\n";
+  EXPECT_EQ(people_text(two, with(with(two, "A", "C"), "B", "D")),
+            "- behavior A\n- behavior B\n+ behavior C\n+ behavior D\n"
+            "- A performs T: suitability 100 %\n- B performs T: suitability 100 %\n"
+            "+ C performs T: suitability 100 %\n+ D performs T: suitability 100 %\n");
+  EXPECT_EQ(people_text(two, with(with(two, "A", "C"), "B", "D"), {{"A", "D"}}),
+            "~ behavior A renamed to D\n~ behavior B renamed to C\n");
+}
+
+TEST(CatalogDiff, TellsTheRestOfWhatWasRenamed) {
+  EXPECT_EQ(
+      people_text(rover, with(with(rover, "DRIVE", "MOVE"), "suitability: 90", "suitability: 80"),
+                  {{"DRIVE", "MOVE"}}),
+      "~ task DRIVE renamed to MOVE\n"
+      "~ WHEELS performs MOVE: suitability 90 % -> 80 %\n");
+}
+
+TEST(CatalogDiff, ListsPerformancesByTheSituation) {
+  EXPECT_EQ(people_text(rover, with(rover, "DOOR: open", "DOOR: closed")),
+            "~ behavior WHEELS: situation DOOR [open] -> [closed]\n"
+            "~ DRIVE in DOOR open: WHEELS 90 %, TRACKS 60 % -> TRACKS 60 %\n"
+            "~ DRIVE in DOOR closed: TRACKS 60 % -> WHEELS 90 %, TRACKS 60 %\n");
+  EXPECT_EQ(people_text(rover, with(rover, "[open, closed]", "[open, closed, ajar]")),
+            "~ situation variable DOOR: values [open, closed] -> [open, closed, ajar]\n"
+            "~ DRIVE in DOOR ajar: no such value -> TRACKS 60 %\n");
+  EXPECT_EQ(people_text(rover, with(rover, "- {behavior: TRACKS, task: DRIVE, suitability: 60}\n",
+                                    "- {behavior: LEGS, task: DRIVE, suitability: 60, situation: "
+                                    "{DOOR: closed}}\n")),
+            "+ behavior LEGS: situation DOOR [closed]\n"
+            "- behavior TRACKS\n"
+            "+ LEGS performs DRIVE: suitability 60 %\n"
+            "- TRACKS performs DRIVE: suitability 60 %\n"
+            "~ DRIVE in DOOR open: WHEELS 90 %, TRACKS 60 % -> WHEELS 90 %\n"
+            "~ DRIVE in DOOR closed: TRACKS 60 % -> LEGS 60 %\n");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "core/catalog/older_format.h"
 #include "core/diagnostic/diagnostic.h"
+#include "core/support/line_diff.h"
 #include "core/yaml/document.h"
 #include "fuzz/target.h"
 #include "lint/report/lint_report.h"

@@ -43,7 +43,6 @@ Range range_of_conditions(const yaml::Node& conditions) {
   return range;
 }
 
-constexpr std::string_view task_name = "the name of a task";
 constexpr std::size_t most_tasks = 100;  // of one behavior
 
 /// The number of errors that left something of the file out. Where a key is unknown, the rest is
@@ -60,7 +59,7 @@ class Reader {
       : document_(document),
         reporter_(reporter),
         attributes_(task_defaults_, reporter),
-        situation_(reporter) {}
+        situation_(names_, reporter) {}
 
   CatalogReading read() && {
     if (report_no_catalog(document_, reporter_)) {
@@ -82,6 +81,7 @@ class Reader {
                                 reporter_.errors(rule::duplicate_key) == 0;
     reading.catalog = std::move(catalog_);
     reading.undefined_tasks = std::move(undefined_);
+    reading.names = std::move(names_);
     return reading;
   }
 
@@ -244,7 +244,7 @@ class Reader {
     const std::size_t errors = reporter_.errors();
     Fields fields(node, shape::task, reporter_);
     TaskEntry task;
-    const auto name = require_name(fields, "task", task_name, node.range);
+    const auto name = require_name(fields, NameKind::task, node.range);
     if (name) {
       task.name = *name;
       fields.call("task " + quote(name->text));
@@ -317,7 +317,7 @@ class Reader {
       Fields fields(*item, shape::parameter, reporter_);
       Parameter parameter;
       if (const auto name =
-              require_name(fields, "parameter", "the name of a parameter", item->range)) {
+              require_text(fields, "parameter", "the name of a parameter", item->range)) {
         parameter.name = name->text;
         fields.call("parameter " + quote(name->text));
         parameter.range = name->range;
@@ -377,7 +377,7 @@ class Reader {
     Fields fields(node, shape::behavior, reporter_);
     Behavior behavior;
     behavior.range = node.range;
-    if (const auto name = require_name(fields, "behavior", "the name of a behavior", node.range)) {
+    if (const auto name = require_name(fields, NameKind::behavior, node.range)) {
       behavior.name = name->text;
       behavior.range = name->range;
       fields.call("behavior " + quote(name->text));
@@ -427,7 +427,7 @@ class Reader {
       read_performances(*list, fields.range_of("tasks"), suitability, behavior);
     }
     if (list == nullptr || fields.find("task") != nullptr) {
-      const auto task = require_name(fields, "task", task_name, behavior.range);
+      const auto task = require_name(fields, NameKind::task, behavior.range);
       if (task) {
         behavior.performs.push_back(performance_of(*task, {}, suitability));
       } else {
@@ -488,7 +488,7 @@ class Reader {
         continue;
       }
       Fields fields(*item, shape::performance, reporter_);
-      const auto name = require_name(fields, "task", task_name, item->range);
+      const auto name = require_name(fields, NameKind::task, item->range);
       const auto suitability = read_value([&] { return read_suitability(fields); });
       fields.report_unknown(yaml::UnknownKeys::ignored);
       if (!name) {
@@ -516,7 +516,7 @@ class Reader {
       if (!expect_entry(*item, "a requirement", "task: NAME")) continue;
       const std::size_t errors = reporter_.errors();
       Fields fields(*item, shape::requirement, reporter_);
-      const auto name = require_name(fields, "task", task_name, item->range);
+      const auto name = require_name(fields, NameKind::task, item->range);
       const Percent minimum = read_value([&] { return read_minimum(fields); });
       fields.report_unknown(yaml::UnknownKeys::ignored);
       if (!name) continue;
@@ -547,6 +547,7 @@ class Reader {
       if (const auto name =
               yaml::read_name(*item, "mutually_exclusive", "a list of names of tasks", reporter_)) {
         names.push_back(*name);
+        names_.push_back({NameKind::task, item->range});
         result.ranges.push_back(item->range);
       } else {
         result.is_complete = false;
@@ -674,7 +675,15 @@ class Reader {
     return node.range;
   }
 
-  std::optional<Name> require_name(Fields& fields, std::string_view key, std::string_view expected,
+  // The name that an entry gives to what it defines, or by which it refers to something else.
+  std::optional<Name> require_name(Fields& fields, NameKind kind, const Range& range) {
+    const std::string expected = concat("the name of a ", name_of(kind));
+    const auto name = require_text(fields, name_of(kind), expected, range);
+    if (name) names_.push_back({kind, name->range});
+    return name;
+  }
+
+  std::optional<Name> require_text(Fields& fields, std::string_view key, std::string_view expected,
                                    const Range& range) {
     const Node* node = fields.require(key, range);
     if (node == nullptr) return std::nullopt;
@@ -693,6 +702,7 @@ class Reader {
   std::optional<std::string_view> default_package_;
   std::optional<Percent> default_suitability_;
   TaskAttributes attributes_;
+  std::vector<NamePlace> names_;
   SituationReader situation_;
   std::vector<TaskEntry> task_entries_;
   Catalog catalog_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/catalog/catalog.h"
+#include "core/catalog/name_place.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/yaml/document.h"
 
@@ -28,6 +29,8 @@ struct CatalogReading {
   Catalog catalog;
   /// The names in requirements and exclusivity lists that it leaves out.
   std::vector<UndefinedTask> undefined_tasks;
+  /// Every place where a name stands, whatever became of the entry that has it.
+  std::vector<NamePlace> names;
   /// Whether all of it was understood, though it may break rules about its meaning.
   bool is_complete = false;
   /// Whether all entries and names were understood. Values may be missing, and then exclude

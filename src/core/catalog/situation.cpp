@@ -86,6 +86,7 @@ void SituationReader::read_variable(const Node& entry) {
   if (name) {
     variable.name = *name;
     variable.range = node->range;
+    names_.push_back({NameKind::variable, node->range});
     fields.call("variable " + quote(*name));
   }
   if (const Node* const values = fields.find("values")) {
@@ -144,6 +145,7 @@ std::vector<Condition> SituationReader::read_conditions(const Node* node,
   }
   yaml::report_duplicate_keys(*node, reporter_);
   for (const auto& [key, value] : node->entries) {
+    names_.push_back({NameKind::variable, key->range});
     if (value->kind == Kind::null) continue;
     const auto variable = find_variable(*key, *node, behavior);
     if (!variable) continue;

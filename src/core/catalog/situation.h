@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/catalog/catalog.h"
+#include "core/catalog/name_place.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/yaml/document.h"
 #include "runtime/compiled/compiled_catalog.h"
@@ -21,7 +22,9 @@ namespace cbc {
 /// findings about all that is wrong (docs/semantics.md, "Situation variables").
 class SituationReader {
  public:
-  explicit SituationReader(Reporter& reporter) : reporter_(reporter) {}
+  /// Notes in `names` where names of variables stand.
+  SituationReader(std::vector<NamePlace>& names, Reporter& reporter)
+      : names_(names), reporter_(reporter) {}
 
   /// The section `situation:` of the catalog; null if there is none.
   [[nodiscard]] std::vector<Variable> read_variables(const yaml::Node* section);
@@ -43,6 +46,7 @@ class SituationReader {
                                          const yaml::Node& value);
   void report_all_values(const Condition& condition);
 
+  std::vector<NamePlace>& names_;
   Reporter& reporter_;
   std::vector<Variable> variables_;
   std::unordered_map<std::string_view, std::uint32_t> places_;  ///< of the variables, by name

@@ -17,7 +17,7 @@
 #include "core/yaml/document.h"
 #include "runtime/compiled/compiled_catalog.h"
 
-/// Checks catalogs by all rules, mends texts by the edits of findings, and shows what that changes.
+/// Checks catalogs by all rules, and mends texts by the edits of findings.
 namespace cbc {
 
 /// How deep a catalog is checked: only as reading it does, by the rules that need no search, or by
@@ -91,11 +91,5 @@ struct FixedText {
 /// Mended text may have new findings with edits: repeat until nothing is mended. This ends, since
 /// the text loses entries or older names each time.
 [[nodiscard]] FixedText apply_fixes(std::string_view text, std::span<const Diagnostic> findings);
-
-/// The difference of two texts in the unified format, with three lines of context, for `patch -p1`
-/// and `git apply`; empty if there is none. `file` is the name in its head. The work is
-/// bounded: where much has changed in one place the difference may not be the shortest.
-[[nodiscard]] std::string unified_diff(std::string_view before, std::string_view after,
-                                       std::string_view file);
 
 }  // namespace cbc

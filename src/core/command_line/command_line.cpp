@@ -34,6 +34,21 @@ std::string suggest(std::string_view name, const std::vector<std::string>& known
 
 }  // namespace
 
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= text.size(); begin += parts.back().size() + 1) {
+    parts.push_back(text.substr(begin, text.find(separator, begin) - begin));
+  }
+  return parts;
+}
+
+std::string join_with_or(const std::vector<std::string>& words) {
+  std::vector<std::string> quoted;
+  quoted.reserve(words.size());
+  for (const std::string& word : words) quoted.push_back(quote_if_split(word));
+  return list_with_or(quoted);
+}
+
 Values pair_of_words(const std::string& placeholder, std::string expected,
                      const std::string& example) {
   Values values;
@@ -50,21 +65,6 @@ Values pair_of_words(const std::string& placeholder, std::string expected,
 Values old_and_new_name() {
   return pair_of_words("OLD=NEW", "the names of a task, behavior or variable in both catalogs",
                        "LAND=DESCEND");
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (std::size_t begin = 0; begin <= text.size(); begin += parts.back().size() + 1) {
-    parts.push_back(text.substr(begin, text.find(separator, begin) - begin));
-  }
-  return parts;
-}
-
-std::string join_with_or(const std::vector<std::string>& words) {
-  std::vector<std::string> quoted;
-  quoted.reserve(words.size());
-  for (const std::string& word : words) quoted.push_back(quote_if_split(word));
-  return list_with_or(quoted);
 }
 
 Values name_of(std::string placeholder, ValueKind kind) {

@@ -69,6 +69,12 @@ struct Values {
 [[nodiscard]] Values folder();
 /// Of a task or behavior, or of a file that need not exist.
 [[nodiscard]] Values name_of(std::string placeholder, ValueKind kind);
+/// Of two words with an equals sign between them, which `placeholder` shows; for complaints, what
+/// they are, and an example.
+[[nodiscard]] Values pair_of_words(const std::string& placeholder, std::string expected,
+                                   const std::string& example);
+/// Of OLD=NEW, where a newer catalog has another name for the same.
+[[nodiscard]] Values old_and_new_name();
 [[nodiscard]] Values one_of(std::string placeholder, std::vector<std::string> choices);
 [[nodiscard]] Values whole_number(std::string placeholder, std::int64_t least,
                                   std::int64_t most = std::numeric_limits<std::int64_t>::max());
@@ -80,12 +86,6 @@ struct Values {
 [[nodiscard]] std::uint64_t tenths_in(const std::string& percent);
 /// Such a value as it is written: "50 %", "99.5 %".
 [[nodiscard]] std::string describe_percent(const std::string& percent);
-
-/// Of two words with an equals sign between them.
-[[nodiscard]] Values pair_of_words(const std::string& placeholder, std::string expected,
-                                   const std::string& example);
-/// Of a name in an older catalog and one in a newer catalog, for what was renamed.
-[[nodiscard]] Values old_and_new_name();
 
 /// The parts between separators; at least one, which may be empty.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);

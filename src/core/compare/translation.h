@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/compare/renames.h"
 #include "core/property/properties.h"
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
@@ -15,23 +16,6 @@ namespace cbc {
 // What is the same in two catalogs, and their assumptions and scripts in each other's numbers.
 // Tasks, behaviors, variables and their values are the same if they have the same name, or if one
 // was renamed to the other.
-
-/// What was renamed: numbers of the old catalog and of the new one. Each number stands once.
-struct Renames {
-  std::vector<std::pair<TaskId, TaskId>> tasks;
-  std::vector<std::pair<BehaviorId, BehaviorId>> behaviors;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> variables;
-};
-
-/// Adds what both names stand for: tasks, behaviors, variables. Returns what is wrong, or nothing.
-[[nodiscard]] std::string add_rename(const CompiledCatalog& old_catalog,
-                                     const CompiledCatalog& new_catalog, std::string_view old_name,
-                                     std::string_view new_name, Renames& renames);
-
-/// The same for "OLD=NEW" entries of an option.
-[[nodiscard]] std::string add_renames(const CompiledCatalog& old_catalog,
-                                      const CompiledCatalog& new_catalog,
-                                      const std::vector<std::string>& entries, Renames& renames);
 
 /// What is not the same in two catalogs by itself, each in words: "task LAND", "value dark of
 /// LIGHT"; "task LAND: DESCEND" if it was renamed.

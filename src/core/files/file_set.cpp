@@ -333,7 +333,7 @@ std::optional<NamedCatalog> FileSet::expect_catalog(const InputFile& file) {
 }
 
 std::optional<Script> FileSet::read_script(const InputFile& file, const CompiledCatalog& catalog,
-                                           const Snapshot* state) {
+                                           const Snapshot* state, std::vector<NamePlace>* names) {
   if (file.is(FileKind::log)) {
     std::string error;
     auto script = read_log(*file.text, catalog, error);
@@ -345,7 +345,8 @@ std::optional<Script> FileSet::read_script(const InputFile& file, const Compiled
     return script;
   }
   Diagnostics diagnostics;
-  auto script = cbc::read_script(*file.document, catalog, Severity::warning, diagnostics, state);
+  auto script =
+      cbc::read_script(*file.document, catalog, Severity::warning, diagnostics, state, names);
   // With another situation there may be other findings.
   const bool is_complete = script && state == nullptr;
   if (!take_findings(file, std::move(diagnostics), is_complete)) return std::nullopt;
@@ -353,9 +354,10 @@ std::optional<Script> FileSet::read_script(const InputFile& file, const Compiled
 }
 
 std::optional<PropertyFile> FileSet::read_properties(const InputFile& file,
-                                                     const CompiledCatalog& catalog) {
+                                                     const CompiledCatalog& catalog,
+                                                     std::vector<NamePlace>* names) {
   Diagnostics diagnostics;
-  auto properties = cbc::read_properties(*file.document, catalog, diagnostics);
+  auto properties = cbc::read_properties(*file.document, catalog, diagnostics, names);
   if (!take_findings(file, std::move(diagnostics), properties.has_value())) return std::nullopt;
   return properties;
 }

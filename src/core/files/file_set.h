@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/catalog/name_place.h"
 #include "core/check/check.h"
 #include "core/check/controls.h"
 #include "core/diagnostic/diagnostic.h"
@@ -156,12 +157,15 @@ class FileSet {
   }
 
   /// Reads a script, also one that is a log, or a property file, on a catalog. Empty if there are
-  /// errors, which are findings; those of a log are printed.
+  /// errors, which are findings; those of a log are printed. `names`, if not null, takes where
+  /// names of the catalog stand, but for a log.
   [[nodiscard]] std::optional<Script> read_script(const InputFile& file,
                                                   const CompiledCatalog& catalog,
-                                                  const Snapshot* state = nullptr);
-  [[nodiscard]] std::optional<PropertyFile> read_properties(const InputFile& file,
-                                                            const CompiledCatalog& catalog);
+                                                  const Snapshot* state = nullptr,
+                                                  std::vector<NamePlace>* names = nullptr);
+  [[nodiscard]] std::optional<PropertyFile> read_properties(
+      const InputFile& file, const CompiledCatalog& catalog,
+      std::vector<NamePlace>* names = nullptr);
 
   /// Prints all findings to standard error, file by file.
   void print_findings();

@@ -233,8 +233,8 @@ constexpr Detail details[] = {
 
 class PropertyReader {
  public:
-  PropertyReader(const CompiledCatalog& catalog, Reporter& reporter)
-      : names_(catalog), reporter_(reporter) {}
+  PropertyReader(const CompiledCatalog& catalog, std::vector<NamePlace>* names, Reporter& reporter)
+      : names_(catalog, names), reporter_(reporter) {}
 
   void read(const Node& root, PropertyFile& file) {
     Fields fields(root, shape::property_file, reporter_);
@@ -386,7 +386,8 @@ std::set<std::uint32_t> variables_of(const Property& property) {
 
 std::optional<PropertyFile> read_properties(const yaml::Document& document,
                                             const CompiledCatalog& catalog,
-                                            Diagnostics& diagnostics) {
+                                            Diagnostics& diagnostics,
+                                            std::vector<NamePlace>* names) {
   Reporter reporter(document.file(), diagnostics);
   PropertyFile file;
   file.path = document.file();
@@ -397,7 +398,7 @@ std::optional<PropertyFile> read_properties(const yaml::Document& document,
                       "missing key 'properties': the property file is empty");
       break;
     case Kind::mapping:
-      PropertyReader(catalog, reporter).read(root, file);
+      PropertyReader(catalog, names, reporter).read(root, file);
       break;
     case Kind::scalar:
     case Kind::sequence:

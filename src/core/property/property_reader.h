@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "core/diagnostic/diagnostic.h"
 #include "core/property/properties.h"
@@ -27,10 +28,12 @@ namespace cbc {
 
 /// Reads and checks a whole property file. Conditions that contradict themselves are errors; those
 /// that the catalog or the assumptions rule out are warnings, or notes where they are to be ruled
-/// out. The result is empty after an error.
+/// out. `names`, if not null, takes where names of the catalog stand. The result is empty after an
+/// error.
 [[nodiscard]] std::optional<PropertyFile> read_properties(const yaml::Document& document,
                                                           const CompiledCatalog& catalog,
-                                                          Diagnostics& diagnostics);
+                                                          Diagnostics& diagnostics,
+                                                          std::vector<NamePlace>* names = nullptr);
 
 /// Whether a file has the key `properties` and no property. Without the key it only says what is
 /// assumed.

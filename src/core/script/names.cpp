@@ -43,7 +43,9 @@ std::optional<std::uint32_t> NameIndex::find_task(const yaml::Node& node, std::s
   const auto name = yaml::read_name(node, what, "the name of a task", reporter);
   if (!name) return std::nullopt;
   const auto found = catalog_.find_task(*name);
-  if (!found) {
+  if (found) {
+    note(NameKind::task, node);
+  } else {
     reporter.report(
         rule::undefined_task, node.range,
         describe_unknown(*name, "task", catalog_.find_behavior(*name).has_value(), "behavior",
@@ -58,7 +60,10 @@ std::optional<std::uint32_t> NameIndex::find_behavior(const yaml::Node& node, st
   const auto name = yaml::read_name(node, what, "the name of a behavior", reporter);
   if (!name) return std::nullopt;
   const auto found = catalog_.find_behavior(*name);
-  if (found) return found;
+  if (found) {
+    note(NameKind::behavior, node);
+    return found;
+  }
   const bool is_task = catalog_.find_task(*name).has_value();
   std::string message =
       is_task && what == cbc::name_of(Verb::finish)
@@ -76,8 +81,7 @@ std::optional<NameIndex::Part> NameIndex::find_part(const yaml::Node& node, Repo
   const auto name =
       yaml::read_name(node, "situation", "the name of a behavior or a variable", reporter);
   if (!name) return std::nullopt;
-  if (const auto variable = catalog_.find_variable(*name)) return Part{true, *variable};
-  if (const auto behavior = catalog_.find_behavior(*name)) return Part{false, *behavior};
+  if (const auto part = part_called(*name, node)) return part;
   if (!parts_) {
     std::vector<std::string_view> names;
     for (const std::string_view behavior : catalog_.behavior_names) names.push_back(behavior);
@@ -91,6 +95,21 @@ std::optional<NameIndex::Part> NameIndex::find_part(const yaml::Node& node, Repo
       has_variables ? rule::undeclared_situation : rule::undefined_behavior, node.range,
       describe_unknown(*name, has_variables ? "behavior or situation variable" : "behavior",
                        catalog_.find_task(*name).has_value(), "task", *parts_, beside));
+  return std::nullopt;
+}
+
+void NameIndex::pass_part(const yaml::Node& node) { (void)part_called(node.text, node); }
+
+std::optional<NameIndex::Part> NameIndex::part_called(std::string_view name,
+                                                      const yaml::Node& node) {
+  if (const auto variable = catalog_.find_variable(name)) {
+    note(NameKind::variable, node);
+    return Part{true, *variable};
+  }
+  if (const auto behavior = catalog_.find_behavior(name)) {
+    note(NameKind::behavior, node);
+    return Part{false, *behavior};
+  }
   return std::nullopt;
 }
 
@@ -121,7 +140,10 @@ std::optional<Situation> read_situation(const yaml::Node& node, NameIndex& names
   Situation situation;
   bool is_understood = true;
   for (const auto& [key, value] : node.entries) {
-    if (value->kind == yaml::Kind::null) continue;
+    if (value->kind == yaml::Kind::null) {
+      names.pass_part(*key);
+      continue;
+    }
     const auto part = names.find_part(*key, reporter, &node);
     if (part && part->is_variable) {
       const auto read = read_value(part->place, *value, names, reporter);

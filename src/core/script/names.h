@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/catalog/name_place.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/script/script.h"
 #include "core/support/wording.h"
@@ -21,8 +22,10 @@ namespace cbc {
 /// unknown names.
 class NameIndex {
  public:
-  /// The catalog must outlive this object.
-  explicit NameIndex(const CompiledCatalog& catalog) : catalog_(catalog) {}
+  /// The catalog must outlive this object, and so must `places`, in which it notes where names of
+  /// the catalog stand, unless that is null.
+  explicit NameIndex(const CompiledCatalog& catalog, std::vector<NamePlace>* places = nullptr)
+      : catalog_(catalog), places_(places) {}
 
   /// `what` is the key that the name is the value of. `beside`: the list or mapping that the name
   /// stands in, whose other names are not suggested.
@@ -41,11 +44,19 @@ class NameIndex {
   };
   [[nodiscard]] std::optional<Part> find_part(const yaml::Node& node, Reporter& reporter,
                                               const yaml::Node* beside);
+  /// For a part whose value is left out: only notes where its name stands.
+  void pass_part(const yaml::Node& node);
 
   [[nodiscard]] const CompiledCatalog& catalog() const { return catalog_; }
 
  private:
+  void note(NameKind kind, const yaml::Node& node) {
+    if (places_ != nullptr) places_->push_back({kind, node.range});
+  }
+  [[nodiscard]] std::optional<Part> part_called(std::string_view name, const yaml::Node& node);
+
   const CompiledCatalog& catalog_;
+  std::vector<NamePlace>* const places_;
   // Made when the first unknown name is met.
   std::optional<Suggestions> tasks_;
   std::optional<Suggestions> behaviors_;

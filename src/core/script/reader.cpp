@@ -409,9 +409,9 @@ const Node* catalog_of_script(const yaml::Document& document) {
 
 std::optional<Script> read_script(const yaml::Document& document, const CompiledCatalog& catalog,
                                   Severity of_parameters, Diagnostics& diagnostics,
-                                  const Snapshot* state) {
+                                  const Snapshot* state, std::vector<NamePlace>* names) {
   Reporter reporter(document.file(), diagnostics);
-  StepReader reader(catalog, of_parameters);
+  StepReader reader(catalog, of_parameters, names);
   if (state != nullptr) {
     State saved(catalog);
     saved.restore(*state);

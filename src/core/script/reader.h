@@ -76,9 +76,10 @@ struct EventParts {
 /// Reads the entries of a script one after the other, and keeps track of clock and situation.
 class StepReader {
  public:
-  /// The catalog must outlive this object; see read_script.
-  StepReader(const CompiledCatalog& catalog, Severity of_parameters)
-      : names_(catalog),
+  /// The catalog must outlive this object; see read_script, and NameIndex for `names`.
+  StepReader(const CompiledCatalog& catalog, Severity of_parameters,
+             std::vector<NamePlace>* names = nullptr)
+      : names_(catalog, names),
         parameter_checks_(catalog, of_parameters),
         is_denied_(catalog.behaviors.size(), false),
         variables_(catalog.variables.size(), 0) {}
@@ -123,10 +124,12 @@ class StepReader {
 
 /// Reads and checks a whole event script. Findings about parameters have the severity
 /// `of_parameters`, since a script has a meaning whatever they are. The script continues from
-/// `state`, if there is one. The result is empty after an error.
+/// `state`, if there is one. `names`, if not null, takes where names of the catalog stand. The
+/// result is empty after an error.
 [[nodiscard]] std::optional<Script> read_script(const yaml::Document& document,
                                                 const CompiledCatalog& catalog,
                                                 Severity of_parameters, Diagnostics& diagnostics,
-                                                const Snapshot* state = nullptr);
+                                                const Snapshot* state = nullptr,
+                                                std::vector<NamePlace>* names = nullptr);
 
 }  // namespace cbc

@@ -6,8 +6,8 @@
 // A comparison of texts would show order, comments and layout, which mean nothing. An edit distance
 // between trees (K. Zhang and D. Shasha, "Simple fast algorithms for the editing distance between
 // trees and related problems", SIAM Journal on Computing 18 (1989)) could guess that something was
-// renamed. But scripts, programs and other catalogs use the names, so to these a new name is
-// another thing.
+// renamed. What counts for that here is its whole content instead (catalog_renames.cpp), which
+// guesses nothing.
 
 #include "graph/engine/catalog_diff.h"
 
@@ -21,16 +21,11 @@
 
 #include <fmt/format.h>
 
-#include "core/catalog/allowed_values.h"
-#include "core/catalog/situation.h"
-#include "core/support/wording.h"
+#include "graph/engine/catalog_facts.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
 namespace {
-
-/// The beginning of the name of an attribute that is a condition on a situation variable.
-constexpr std::string_view condition_prefix = "situation ";
 
 std::string describe_value(const AttributeValue& value) {
   if (const bool* const truth = std::get_if<bool>(&value)) return *truth ? "true" : "false";
@@ -95,36 +90,38 @@ void walk(const std::vector<Item>& before, const std::vector<Item>& after, const
 /// Place of a task among the sorted names of both catalogs.
 using Place = std::uint32_t;
 
-std::vector<std::string_view> names_of_both(const CompiledCatalog& before,
-                                            const CompiledCatalog& after) {
-  std::vector<std::string_view> names;
-  for (const CompiledCatalog* catalog : {&before, &after}) {
-    for (const std::string_view name : catalog->task_names) names.push_back(name);
-  }
+std::vector<std::string_view> names_of_both(const NamedCatalog& before, const NamedCatalog& after) {
+  std::vector<std::string_view> names = before.tasks;
+  names.insert(names.end(), after.tasks.begin(), after.tasks.end());
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
 
 /// By task: its place.
-std::vector<Place> places_of(const CompiledCatalog& catalog,
+std::vector<Place> places_of(const NamedCatalog& catalog,
                              const std::vector<std::string_view>& names) {
   std::vector<Place> places;
-  for (TaskId task(0); task < catalog.tasks.size(); ++task) {
-    const auto found = std::lower_bound(names.begin(), names.end(), catalog.name_of_task(task));
+  for (const std::string_view task : catalog.tasks) {
+    const auto found = std::lower_bound(names.begin(), names.end(), task);
     places.push_back(static_cast<Place>(found - names.begin()));
   }
   return places;
 }
 
+/// By place: the task, or none that the catalog has.
+std::vector<TaskId> tasks_at(const std::vector<Place>& places, std::size_t count) {
+  std::vector<TaskId> tasks(count, TaskId(none));
+  for (TaskId task(0); task < places.size(); ++task) tasks[places[task]] = task;
+  return tasks;
+}
+
 /// The tasks with later names that a task excludes, in the order of names; none of a task that the
 /// catalog does not have.
 std::vector<Place> excluded_after(const CompiledCatalog& catalog, const std::vector<Place>& places,
-                                  std::string_view name) {
+                                  TaskId task) {
   std::vector<Place> excluded;
-  const auto index = catalog.find_task(name);
-  if (!index) return excluded;
-  const TaskId task = catalog.task_ids[*index];
+  if (task == none) return excluded;
   for (const std::uint32_t clique : catalog.task_cliques[task]) {
     for (const TaskId other : catalog.cliques[clique]) {
       if (places[other] > places[task]) excluded.push_back(places[other]);
@@ -136,13 +133,14 @@ std::vector<Place> excluded_after(const CompiledCatalog& catalog, const std::vec
 }
 
 /// Adds the pairs of tasks that exclude one another in one of the catalogs only.
-void compare_exclusions(const CompiledCatalog& before, const CompiledCatalog& after,
-                        CatalogDiff& diff) {
+void compare_exclusions(const NamedCatalog& before, const NamedCatalog& after, CatalogDiff& diff) {
   const std::vector<std::string_view> names = names_of_both(before, after);
   const std::vector<Place> old_places = places_of(before, names);
   const std::vector<Place> new_places = places_of(after, names);
+  const std::vector<TaskId> old_tasks = tasks_at(old_places, names.size());
+  const std::vector<TaskId> new_tasks = tasks_at(new_places, names.size());
   std::size_t listed = 0;
-  for (const std::string_view name : names) {
+  for (Place place = 0; place < names.size(); ++place) {
     const auto add = [&](ChangeKind kind, Place other) {
       if (listed == most_listed_exclusions) {
         ++diff.further_exclusions;
@@ -152,150 +150,15 @@ void compare_exclusions(const CompiledCatalog& before, const CompiledCatalog& af
       CatalogChange& change = diff.changes.emplace_back();
       change.kind = kind;
       change.subject = ChangeSubject::exclusion;
-      change.task = name;
+      change.task = names[place];
       change.other_task = names[other];
     };
     walk(
-        excluded_after(before, old_places, name), excluded_after(after, new_places, name),
-        std::less<>(), [&](Place other) { add(ChangeKind::removed, other); },
+        excluded_after(before.catalog, old_places, old_tasks[place]),
+        excluded_after(after.catalog, new_places, new_tasks[place]), std::less<>(),
+        [&](Place other) { add(ChangeKind::removed, other); },
         [&](Place other) { add(ChangeKind::added, other); }, [](Place, Place) {});
   }
-}
-
-/// An attribute and its value.
-struct Attribute {
-  std::string name;
-  AttributeValue value;    ///< what is compared
-  std::string shown = {};  ///< if not empty, what is shown of it
-};
-using Attributes = std::vector<Attribute>;  ///< in the order of names
-
-/// Something that a catalog says, and the names by which to find it in another one.
-struct Fact {
-  std::string_view first;
-  std::string_view second;  ///< of pairs
-  Attributes attributes;
-};
-
-bool precedes(const Fact& a, const Fact& b) {
-  return std::pair(a.first, a.second) < std::pair(b.first, b.second);
-}
-
-template <typename Number>
-AttributeValue unless_zero(Number number) {
-  return number == 0 ? AttributeValue() : AttributeValue(number);
-}
-
-Attributes attributes_of_task(const CompiledCatalog& catalog, std::uint32_t index) {
-  const CompiledTask& task = catalog.tasks[catalog.task_ids[index]];
-  Attributes attributes{
-      {"execution_goal", std::string(task.keep_running != 0 ? "keep_running" : "achieve_goal")},
-      {"minimum_performance", unless_zero(task.minimum_performance)},
-      {"reactive_start", task.reactive_start != 0},
-      {"start_on_request", task.start_on_request != 0},
-      {"timeout", unless_zero(task.timeout)}};
-  for (Parameter& parameter : parameters_of(catalog, index)) {
-    std::string name = "parameter " + parameter.name;
-    attributes.push_back({std::move(name), describe_allowed(std::move(parameter))});
-  }
-  std::sort(attributes.begin(), attributes.end(),
-            [](const Attribute& a, const Attribute& b) { return a.name < b.name; });
-  return attributes;
-}
-
-/// "[far, near]"
-std::string list_values(const std::vector<std::string_view>& values) {
-  return "[" + join(values, ", ", spell_value) + "]";
-}
-
-/// Values of a situation variable, whose order does not count; they are shown in catalog order.
-Attribute set_of_values(std::string name, std::vector<std::string_view> values) {
-  std::string shown = list_values(values);
-  std::sort(values.begin(), values.end());
-  return {std::move(name), list_values(values), std::move(shown)};
-}
-
-/// True or false for a variable without values of its own.
-Attribute attribute_of(const NamedCondition& condition) {
-  std::string name = std::string(condition_prefix) + std::string(condition.variable);
-  const bool is_truth = condition.is_boolean && condition.values.size() == 1;
-  if (is_truth) return {std::move(name), condition.values.front() == "true"};
-  return set_of_values(std::move(name), condition.values);
-}
-
-Attributes attributes_of_behavior(const CompiledCatalog& catalog, std::uint32_t index) {
-  const std::string_view package = catalog.texts[catalog.behavior_packages[index]];
-  const BehaviorId id = catalog.behavior_ids[index];
-  Attributes attributes{
-      {"package", package.empty() ? AttributeValue() : AttributeValue(std::string(package))},
-      {"timeout", unless_zero(catalog.behaviors[id].timeout)}};
-  for (const NamedCondition& condition : conditions_of(catalog, id)) {
-    attributes.push_back(attribute_of(condition));
-  }
-  std::sort(attributes.begin(), attributes.end(),
-            [](const Attribute& a, const Attribute& b) { return a.name < b.name; });
-  return attributes;
-}
-
-/// The order of the values does not count, apart from the first one.
-Attributes attributes_of_variable(const CompiledCatalog& catalog, std::uint32_t index) {
-  const CompiledVariable& variable = catalog.variables[index];
-  std::vector<std::string_view> values;
-  for (std::uint32_t value = 0; value < variable.value_count; ++value) {
-    values.push_back(catalog.name_of_value({index, value}));
-  }
-  const std::string initial(values.front());
-  const bool has_own = variable.is_boolean == 0;
-  return {{"initial value", initial},
-          has_own ? set_of_values("values", std::move(values)) : Attribute{"values", {}}};
-}
-
-std::vector<Fact> facts(const CompiledCatalog& catalog, ChangeSubject subject) {
-  std::vector<Fact> result;
-  const auto task_count = static_cast<std::uint32_t>(catalog.tasks.size());
-  const auto behavior_count = static_cast<std::uint32_t>(catalog.behaviors.size());
-  switch (subject) {
-    case ChangeSubject::task:
-      for (std::uint32_t task = 0; task < task_count; ++task) {
-        result.push_back({catalog.task_names[task], {}, attributes_of_task(catalog, task)});
-      }
-      break;
-    case ChangeSubject::behavior:
-      for (std::uint32_t behavior = 0; behavior < behavior_count; ++behavior) {
-        result.push_back(
-            {catalog.behavior_names[behavior], {}, attributes_of_behavior(catalog, behavior)});
-      }
-      break;
-    case ChangeSubject::performs:
-      for (TaskId task(0); task < task_count; ++task) {
-        for (const Value& value : catalog.values[task]) {
-          result.push_back({catalog.name_of_behavior(value.behavior),
-                            catalog.name_of_task(task),
-                            {{"suitability", value.suitability}}});
-        }
-      }
-      break;
-    case ChangeSubject::requirement:
-      for (BehaviorId behavior(0); behavior < behavior_count; ++behavior) {
-        for (const CompiledRequirement& requirement : catalog.requirements[behavior]) {
-          result.push_back(
-              {catalog.name_of_behavior(behavior),
-               catalog.name_of_task(requirement.task),
-               {{"minimum_performance", unless_zero(requirement.minimum_performance)}}});
-        }
-      }
-      break;
-    case ChangeSubject::variable:
-      for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
-        result.push_back(
-            {catalog.name_of_variable(variable), {}, attributes_of_variable(catalog, variable)});
-      }
-      break;
-    case ChangeSubject::exclusion:
-      break;  // see compare_exclusions
-  }
-  std::sort(result.begin(), result.end(), precedes);
-  return result;
 }
 
 /// The attributes that differ. Both lists are in the order of names; either may be empty.
@@ -366,14 +229,29 @@ std::string_view name_of(ChangeSubject subject) {
   return names[static_cast<std::size_t>(subject)];
 }
 
-CatalogDiff compare_catalogs(const CompiledCatalog& before, const CompiledCatalog& after) {
+CatalogDiff compare_catalogs(const CompiledCatalog& before, const CompiledCatalog& after,
+                             const Renames& renames) {
   CatalogDiff diff;
+  const NamedCatalog old_names = with_new_names(before, after, renames);
+  const NamedCatalog new_names = with_own_names(after);
+  for (const auto& [from, to] : renames.tasks) {
+    diff.renamed.push_back({ChangeSubject::task, std::string(before.name_of_task(from)),
+                            std::string(after.name_of_task(to))});
+  }
+  for (const auto& [from, to] : renames.behaviors) {
+    diff.renamed.push_back({ChangeSubject::behavior, std::string(before.name_of_behavior(from)),
+                            std::string(after.name_of_behavior(to))});
+  }
+  for (const auto& [from, to] : renames.variables) {
+    diff.renamed.push_back({ChangeSubject::variable, std::string(before.name_of_variable(from)),
+                            std::string(after.name_of_variable(to))});
+  }
   for (const ChangeSubject subject :
        {ChangeSubject::task, ChangeSubject::behavior, ChangeSubject::performs,
         ChangeSubject::requirement, ChangeSubject::variable}) {
-    compare_facts(subject, facts(before, subject), facts(after, subject), diff.changes);
+    compare_facts(subject, facts(old_names, subject), facts(new_names, subject), diff.changes);
   }
-  compare_exclusions(before, after, diff);
+  compare_exclusions(old_names, new_names, diff);
   return diff;
 }
 

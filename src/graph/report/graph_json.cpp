@@ -10,6 +10,7 @@
 #include "core/support/json.h"
 #include "core/support/json_description.h"
 #include "graph/engine/catalog_diff.h"
+#include "graph/engine/catalog_facts.h"
 #include "graph/report/graph_report.h"
 #include "runtime/base/text.h"
 
@@ -195,10 +196,33 @@ std::string describe_subject(const CatalogChange& change) {
   return {};
 }
 
+/// For a new task, behavior or variable the name is enough, and in which situations it matters; its
+/// other attributes are in the catalog.
+bool is_told(const CatalogChange& change, const AttributeChange& attribute) {
+  if (change.kind == ChangeKind::changed) return true;
+  switch (change.subject) {
+    case ChangeSubject::task:
+      return false;
+    case ChangeSubject::behavior:
+      return attribute.name.starts_with(condition_prefix);
+    case ChangeSubject::variable:
+      return attribute.name == "values";
+    default:
+      return true;
+  }
+}
+
 }  // namespace
 
 std::string diff_text(const CatalogDiff& diff, const Style& style) {
   std::string text;
+  for (const NewName& name : diff.renamed) {
+    const std::string_view kind =
+        name.subject == ChangeSubject::variable ? "situation variable" : name_of(name.subject);
+    text += style.paint(style.warning, fmt::format("~ {} {} renamed to {}", kind,
+                                                   printable(name.before), printable(name.after))) +
+            "\n";
+  }
   for (const CatalogChange& change : diff.changes) {
     std::string_view color = style.warning;
     char sign = '~';
@@ -211,13 +235,8 @@ std::string diff_text(const CatalogDiff& diff, const Style& style) {
     }
     std::string line = fmt::format("{} {}", sign, describe_subject(change));
     std::string_view separator = ": ";
-    // For a new task, behavior or variable the name is enough; its attributes are in the catalog.
-    const bool is_whole =
-        change.kind != ChangeKind::changed &&
-        (change.subject == ChangeSubject::task || change.subject == ChangeSubject::behavior ||
-         change.subject == ChangeSubject::variable);
     for (const AttributeChange& attribute : change.attributes) {
-      if (is_whole) break;
+      if (!is_told(change, attribute)) continue;
       line += separator;
       line += describe(change, attribute);
       separator = ", ";
@@ -226,6 +245,17 @@ std::string diff_text(const CatalogDiff& diff, const Style& style) {
   }
   if (diff.further_exclusions > 0) {
     text += fmt::format("and {} further exclusions\n", diff.further_exclusions);
+  }
+  return text;
+}
+
+std::string fitting_text(const std::vector<FittingChange>& changes, const Style& style) {
+  std::string text;
+  for (const FittingChange& change : changes) {
+    const std::string line =
+        fmt::format("~ {} in {} {}: {} -> {}", printable(change.task), printable(change.variable),
+                    printable(change.value), change.before, change.after);
+    text += style.paint(style.warning, line) + "\n";
   }
   return text;
 }

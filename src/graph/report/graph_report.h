@@ -112,6 +112,10 @@ struct GraphFormat {
 /// Empty if there are none.
 [[nodiscard]] std::string diff_text(const CatalogDiff& diff, const Style& style);
 
+/// The performances that differ in values of the situation, for a person to read, a line for each.
+[[nodiscard]] std::string fitting_text(const std::vector<FittingChange>& changes,
+                                       const Style& style);
+
 /// The differences as JSON; `before` and `after` name the catalogs.
 [[nodiscard]] std::string diff_json(const CatalogDiff& diff, std::string_view before,
                                     std::string_view after);

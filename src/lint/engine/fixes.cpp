@@ -23,6 +23,7 @@
 #include "core/check/check.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/yaml/document.h"
+#include "core/yaml/edits.h"
 #include "core/yaml/source.h"
 #include "runtime/base/text.h"
 
@@ -271,15 +272,9 @@ class Selection {
   }
 
   [[nodiscard]] std::string apply(std::string_view text) const {
-    std::string result;
-    std::size_t copied = 0;
-    for (const auto& [begin, change] : changes_) {
-      result += text.substr(copied, begin - copied);
-      result += change.text;
-      copied = change.span.end;
-    }
-    result += text.substr(copied);
-    return result;
+    std::vector<yaml::TextEdit> edits;
+    for (const auto& [begin, change] : changes_) edits.push_back({change.span, change.text});
+    return yaml::apply_edits(text, edits);
   }
 
  private:

@@ -1,3 +1,5 @@
+#include "core/support/line_diff.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
@@ -7,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/check/check.h"
 #include "support/scratch_folder.h"
 
 namespace cbc::line_diff_test {

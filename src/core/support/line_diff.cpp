@@ -8,14 +8,13 @@
 // have little in common. The edits that a fix made are known, but there may be several rounds of
 // them, each on the text of the one before; to compare the first text with the last is simpler.
 
+#include "core/support/line_diff.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <string>
-#include <string_view>
 #include <vector>
 
-#include "core/check/check.h"
 #include "runtime/base/text.h"
 
 namespace cbc {

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/catalog/name_place.h"
+#include "rename/engine/renaming.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "verify/engine/same_as.h"
+
+namespace cbc {
+
+/// Compares two catalogs, of which the second has the new name for what the first has the old name
+/// for, as `cbc verify --same-as` does. Each exploration ends after `max_states` pairs of states.
+[[nodiscard]] CatalogComparison compare_renamed(const CompiledCatalog& before,
+                                                const CompiledCatalog& after,
+                                                const Renaming& renaming,
+                                                const ExplorationLimits& limits, unsigned jobs);
+
+}  // namespace cbc
