@@ -146,6 +146,14 @@ std::string with_old_name(std::string text, const std::string& old_name) {
   return text;
 }
 
+/// Sentences say "task LAND" only where a behavior has the same name.
+void remove_messages(nlohmann::ordered_json& json) {
+  if (json.is_object()) json.erase("message");
+  for (auto& part : json) {
+    if (part.is_structured()) remove_messages(part);
+  }
+}
+
 /// A folder with a catalog of catalogs/ and all that is about it.
 class Copy {
  public:
@@ -174,7 +182,9 @@ class Copy {
     arguments.insert(arguments.end(), {"--format", "json"});
     const Result result = cbc(arguments);
     EXPECT_EQ(result.status, 0) << result.err;
-    return result.out;
+    auto json = nlohmann::ordered_json::parse(result.out);
+    remove_messages(json);
+    return json.dump();
   }
 
   [[nodiscard]] std::map<std::string, std::string> texts() const {

@@ -354,8 +354,10 @@ bool FailureExplanation::tell_stop(TaskId task, std::uint64_t told,
     std::string line = fmt::format("{} stopped with {}", task_name(*catalog_, task), stop.what);
     if (stop.priority > 0) {
       line += fmt::format(", and its request (priority {}) ended there", stop.priority);
-      // Of the last event another answer was expected, not another event.
-      const bool helps = stop.event != last_->index && catalog_->tasks[task].start_on_request != 0;
+      // Of the last event of the script another answer was expected, not another event.
+      const bool is_answer = stop.event == last_->index && last_->origin == Origin::script &&
+                             last_->verb != Verb::finish;
+      const bool helps = !is_answer && catalog_->tasks[task].start_on_request != 0;
       if (helps) line += "; request it again";
     }
     if (!stop.timeout.empty()) line += "; " + stop.timeout;

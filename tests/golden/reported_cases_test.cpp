@@ -1,0 +1,128 @@
+// Inputs that went wrong for their users, if they are at hand: what the program has to say of each.
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "golden/process.h"
+#include "support/shared_folder.h"
+
+namespace cbc::golden::reported_cases_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReportedCase {
+  const char* folder;
+  std::vector<std::string> arguments;
+  int status;
+  std::vector<std::string> said;      ///< is in the output
+  std::vector<std::string> not_said;  ///< is not
+
+  friend void PrintTo(const ReportedCase& reported, std::ostream* out) {
+    *out << reported.folder;
+    for (const std::string& argument : reported.arguments) *out << ' ' << argument;
+  }
+};
+
+class ReportedCases : public testing::TestWithParam<ReportedCase> {};
+
+TEST_P(ReportedCases, AreAnswered) {
+  const ReportedCase& reported = GetParam();
+  const fs::path folder = test::shared_folder() / "cases" / reported.folder;
+  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  const Result result = run({reported.arguments, folder});
+  const std::string all = result.out + result.err;
+  EXPECT_EQ(result.status, reported.status) << all;
+  for (const std::string& text : reported.said) {
+    EXPECT_NE(all.find(text), std::string::npos) << text << "\n" << all;
+  }
+  for (const std::string& text : reported.not_said) {
+    EXPECT_EQ(all.find(text), std::string::npos) << text << "\n" << all;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Case, ReportedCases,
+    testing::Values(
+        ReportedCase{"active-means-two-things",
+                     {"verify", "robot.properties.yaml"},
+                     1,
+                     {"some state in which only behavior IMU_RELAY is active", "there is none"},
+                     {}},
+        ReportedCase{"expect-active-no-difference",
+                     {"solve", "--brief", "mission.yaml"},
+                     1,
+                     {"not expected: 'BEHAVIOR_17'"},
+                     {"to be 'BEHAVIOR_1'"}},
+        ReportedCase{"folder-skips-broken-catalogs",
+                     {"lint", "."},
+                     1,
+                     {"first-line-tab.yaml:1:1: error", "indented.yaml:3:2: error",
+                      "old-format-with-tabs.yaml:3:1: error", "utf16.yaml:1:1: error",
+                      "4 files were not understood"},
+                     {"no findings"}},
+        ReportedCase{"reactive-cannot-preempt",
+                     {"solve", "mission.yaml"},
+                     1,
+                     {"MRM starts by itself only while no task that it excludes runs on request; "
+                      "DRIVE does (car.yaml:11)",
+                      "10.000 s"},
+                     {"no other choice"}},
+        ReportedCase{"request-not-resumed",
+                     {"solve", "mission.yaml"},
+                     1,
+                     {"its request (priority 1) ended there; request it again"},
+                     {}},
+        ReportedCase{"request-not-resumed",
+                     {"solve", "mission.yaml", "--format", "junit"},
+                     1,
+                     {"its request (priority 1) ended there; request it again"},
+                     {}},
+        ReportedCase{"request-not-resumed",
+                     {"solve", "mission.yaml", "--format", "json"},
+                     1,
+                     {"its request (priority 1) ended there; request it again"},
+                     {}},
+        ReportedCase{"request-not-resumed",
+                     {"solve", "mission.yaml", "--format", "github"},
+                     1,
+                     {"its request (priority 1) ended there; request it again"},
+                     {}},
+        ReportedCase{"same-as-timeouts",
+                     {"verify", "new.yaml", "--same-as", "old.yaml"},
+                     1,
+                     {"DOCK1: timeout 5 s in old.yaml, none in new.yaml"},
+                     {}},
+        ReportedCase{"same-as-task-gone",
+                     {"verify", "new.yaml", "--same-as", "old.yaml"},
+                     1,
+                     {"task LAND can be requested in old.yaml only"},
+                     {}},
+        ReportedCase{"same-as-task-gone",
+                     {"verify", "new.yaml", "--same-as", "old.yaml", "--allow-missing"},
+                     0,
+                     {"decided alike"},
+                     {}},
+        ReportedCase{"same-as-task-gone",
+                     {"verify", "renamed.yaml", "--same-as", "old2.yaml"},
+                     1,
+                     {"nothing was compared"},
+                     {"decided alike"}},
+        ReportedCase{"violated-after-1-event-none-shown",
+                     {"verify", "robot.properties.yaml"},
+                     1,
+                     {"0.080  GO_HOME is due, and cannot start by itself",
+                      "DRIVE_HOME_AND_CHARGE does not fit: BATTERY is ok"},
+                     {}},
+        ReportedCase{"why-after-failover",
+                     {"solve", "mission.yaml", "--why", "FLY"},
+                     0,
+                     {"FAST would suit FLY better (100 %, SLOW 40 %): FAST does not fit: GPS is "
+                      "false"},
+                     {}}));
+
+}  // namespace
+}  // namespace cbc::golden::reported_cases_test
