@@ -171,7 +171,7 @@ void add_solve_command(Program& program) {
   Command& command = program.add_command(
       "solve", "Runs event scripts on a catalog and computes proven best answers.",
       {{"[OPTION...] [CATALOG] SCRIPT...", "--format jsonl [OPTION...] CATALOG SCRIPT|-",
-        "--replay LOG [--against] [OPTION...] CATALOG"},
+        "--replay LOG [OPTION...] CATALOG"},
        solve_examples,
        solve_footer});
   command.argument("CATALOG SCRIPT", options->paths, input("...", ValueKind::catalog_or_script),

@@ -275,7 +275,8 @@ TEST(Sweep, KeepsToItsShape) {
   }
   EXPECT_EQ(scripted, 50U * 17U);  // none is a failure or a fault
   for (std::uint64_t sequence = 0; sequence < 50; ++sequence) {
-    for (const Step& step : steps_of_sequence(catalog, DrawnNames(catalog), settings, sequence, 0)) {
+    for (const Step& step :
+         steps_of_sequence(catalog, DrawnNames(catalog), settings, sequence, 0)) {
       EXPECT_EQ(step.priority.value_or(1), 1);
     }
   }
@@ -293,8 +294,8 @@ behaviors:
 )");
   SweepSettings settings;
   settings.shape.events = 400;  // one of 16 starts has parameters
-  const std::string script =
-      write_script(catalog, script_of(steps_of_sequence(catalog, DrawnNames(catalog), settings, 0, 0)), "");
+  const std::string script = write_script(
+      catalog, script_of(steps_of_sequence(catalog, DrawnNames(catalog), settings, 0, 0)), "");
   EXPECT_NE(script.find("\"p\":0.5}"), std::string::npos) << script;
   EXPECT_NE(script.find("\"p\":1000.0}"), std::string::npos) << script;
   EXPECT_EQ(script.find("0.50"), std::string::npos);

@@ -57,6 +57,7 @@ COMMANDS = [
     Command("graph_dot", "graph robot.yaml -o robot.dot", ("robot.dot",)),
     Command("graph_svg", "graph robot.yaml -o robot.svg", ("robot.svg",)),
     Command("lint_fix", "lint --fix older", ("older/old.yaml",)),
+    Command("rename", "rename task DRIVE RIDE robot.yaml missions", ("robot.yaml", "missions/first.yaml")),
     Command("init", "init project", tuple("project/" + name for name in (
         "robot.yaml", "missions/delivery.yaml", ".cbc.yaml", "ci.sh", ".cbc/catalog.json", ".cbc/script.json",
         ".cbc/settings.json")), replaces=False),

@@ -29,8 +29,8 @@ class MissionLoader {
  public:
   /// From now on, folders and paths may be without a script.
   void need_none() { needs_none_ = true; }
-  /// Beside others, a script that names what its catalog does not have, and is right otherwise, is a
-  /// mission without steps.
+  /// Beside others, a script that names what its catalog does not have, and is right otherwise, is
+  /// a mission without steps.
   void keep_outdated() { keeps_outdated_ = true; }
   /// All scripts run on this catalog, and the paths are those of scripts alone.
   void give_catalog(std::shared_ptr<const CheckedCatalog> catalog) {

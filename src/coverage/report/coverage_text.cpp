@@ -43,7 +43,7 @@ void add_list(const CatalogCoverage& coverage, std::string_view heading,
 
 /// Whether many goals are missed.
 bool is_long(const CatalogCoverage& coverage) {
-  constexpr std::size_t few_goals = 20;
+  constexpr std::size_t few_goals = 30;
   const GoalCount total = coverage.total();
   return total.goals - total.met > few_goals;
 }
