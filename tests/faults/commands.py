@@ -38,6 +38,7 @@ class Command:
     status: int = 0
     stdin: str = os.devnull
     replaces: bool = True  # an output that exists already
+    repeats: bool = True  # it can be run again
     ends_early: bool = False  # if it fails, the output has what was done until then, in JSON
 
     def __str__(self):
@@ -57,10 +58,11 @@ COMMANDS = [
     Command("graph_dot", "graph robot.yaml -o robot.dot", ("robot.dot",)),
     Command("graph_svg", "graph robot.yaml -o robot.svg", ("robot.svg",)),
     Command("lint_fix", "lint --fix older", ("older/old.yaml",)),
-    Command("rename", "rename task DRIVE RIDE robot.yaml missions", ("robot.yaml", "missions/first.yaml")),
+    Command("rename", "rename task DRIVE RIDE robot.yaml missions", ("robot.yaml", "missions/first.yaml"),
+            repeats=False),
     Command("init", "init project", tuple("project/" + name for name in (
         "robot.yaml", "missions/delivery.yaml", ".cbc.yaml", "ci.sh", ".cbc/catalog.json", ".cbc/script.json",
-        ".cbc/settings.json")), replaces=False),
+        ".cbc/settings.json")), replaces=False, repeats=False),
     Command("verify", "verify robot.properties.yaml -j 1 --format json -o result.json --html page.html --scripts scripts",
             ("result.json", "page.html", "scripts/robot.2.mission.yaml"), status=1),
     Command("cut_sets", "verify robot.yaml -j 1 --cut-sets DRIVE -o sets.txt", ("sets.txt",)),

@@ -8,13 +8,13 @@ import unittest
 
 import system_calls
 from commands import COMMANDS, ROOT, Command
-from fault_case import UNUSABLE, FaultCase, Run
+from fault_case import NO_THREAD, UNUSABLE, FaultCase, Run
 
 # Calls that may fail, and how.
 ERRORS = {
     "access": "EIO", "clone": "EAGAIN", "clone3": "EAGAIN", "close": "EIO", "faccessat2": "EIO",
     "fchmod": "EPERM", "fchown": "EPERM", "fsync": "EIO", "getcwd": "ENOENT", "getdents64": "EIO",
-    "getrandom": "ENOSYS", "link": "EIO", "lseek": "EIO", "mkdir": "ENOSPC", "mmap": "ENOMEM", "newfstatat": "EIO",
+    "getrandom": "ENOSYS", "link": "EIO", "lseek": "EIO", "memfd_create": "EMFILE", "mkdir": "ENOSPC", "mmap": "ENOMEM", "newfstatat": "EIO",
     "openat": "EIO", "pipe2": "EMFILE", "poll": "ENOMEM", "pread64": "EIO", "read": "EIO", "readlink": "EIO",
     "readv": "EIO", "rename": "EIO", "renameat2": "EIO", "unlink": "EIO", "vfork": "EAGAIN", "wait4": "ECHILD",
     "write": "ENOSPC", "writev": "ENOSPC",
@@ -44,7 +44,7 @@ class FailingCalls(FaultCase):
         elif run.status == run.command.status:
             self.assert_complete(run)
         else:
-            reasons = [REASONS[error], "out of memory"]
+            reasons = [REASONS[error], "out of memory", NO_THREAD]
             if call.name == "newfstatat" and "S_IFDIR" in call.arguments:
                 reasons.append(os.strerror(errno.EISDIR))  # it is then taken for a file, which says the rest
             self.assert_refused(run, reasons, self.names(call, command))
@@ -52,10 +52,12 @@ class FailingCalls(FaultCase):
     @staticmethod
     def names(call, command):
         """How a message may name what the call was about."""
-        if call.name in ("pipe2", "vfork", "clone", "clone3", "mmap", "poll", "wait4"):
+        if call.name in ("pipe2", "memfd_create", "vfork", "clone", "clone3", "mmap", "poll", "wait4"):
             return ()
         if call.descriptor() in (0, 1):
             return ("standard input", "<stdin>") if call.descriptor() == 0 else ("the output",)
+        if "memfd:" in call.arguments:
+            return ("Graphviz",)
         names = [pathlib.Path(path).name for path in call.paths()]
         # A temporary file and a folder are there for an output.
         return [*names, *(pathlib.Path(output).name for output in command.outputs)]

@@ -259,44 +259,47 @@ std::string end_of(int status) {
   return fmt::format("ended by signal {}", WTERMSIG(status));
 }
 
-/// What was written to a file that is open.
-std::string content_of(const Descriptor& file) {
-  std::string content(static_cast<std::size_t>(lseek(file.number(), 0, SEEK_END)), '\0');
-  lseek(file.number(), 0, SEEK_SET);
-  std::size_t size = 0;
-  while (size < content.size()) {
+/// Reads what was written to a file that is open. False: it cannot be read, and errno says why.
+[[nodiscard]] bool read_all(const Descriptor& file, std::string& content) {
+  const off_t end = lseek(file.number(), 0, SEEK_END);
+  if (end < 0 || lseek(file.number(), 0, SEEK_SET) < 0) return false;
+  content.resize(static_cast<std::size_t>(end));
+  for (std::size_t size = 0; size < content.size();) {
     const ssize_t count = read(file.number(), content.data() + size, content.size() - size);
-    if (count <= 0) break;
+    if (count < 0) return false;
+    if (count == 0) content.resize(size);
     size += static_cast<std::size_t>(count);
   }
-  content.resize(size);
-  return content;
+  return true;
 }
 
 }  // namespace
 
 Filtered run_filter(const std::vector<std::string>& command, std::string_view input) {
   // Files in memory, of which neither side waits for the other.
+  const auto fail = [] { return Filtered{true, false, {}, reason()}; };
   std::array<Descriptor, 3> streams;
   for (Descriptor& stream : streams) {
     stream.set(memfd_create("stream", MFD_CLOEXEC));
-    if (stream.number() < 0) return {false, false, {}, reason()};
+    if (stream.number() < 0) return fail();
   }
   const int input_file = streams[STDIN_FILENO].number();
-  if (!write_all(input_file, input)) return {false, false, {}, reason()};
-  lseek(input_file, 0, SEEK_SET);
+  if (!write_all(input_file, input) || lseek(input_file, 0, SEEK_SET) < 0) return fail();
   pid_t process = 0;
   if (const int error = start(command, streams, process); error != 0) {
     return {false, false, {}, reason(error)};
   }
   int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  while (waitpid(process, &status, 0) < 0) {
+    if (errno != EINTR) return fail();
   }
   Filtered result;
   result.is_found = true;
   result.is_done = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  result.output = content_of(streams[STDOUT_FILENO]);
-  result.error_output = content_of(streams[STDERR_FILENO]);
+  if (!read_all(streams[STDOUT_FILENO], result.output) ||
+      !read_all(streams[STDERR_FILENO], result.error_output)) {
+    return fail();
+  }
   if (!result.is_done && result.error_output.empty()) result.error_output = end_of(status);
   return result;
 }

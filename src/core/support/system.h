@@ -37,7 +37,7 @@ namespace cbc {
 
 /// What a program made of a text.
 struct Filtered {
-  bool is_found = false;     ///< the program could be started
+  bool is_found = false;     ///< nothing says that the program could not be started
   bool is_done = false;      ///< it ended with exit status 0
   std::string output;        ///< its standard output
   std::string error_output;  ///< its standard error, or why it could not be run, or how it ended
