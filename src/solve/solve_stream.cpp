@@ -19,6 +19,7 @@
 #include "core/files/read.h"
 #include "core/report/event_json.h"
 #include "core/report/failure_explanation.h"
+#include "core/report/words.h"
 #include "core/script/event_lines.h"
 #include "core/script/reader.h"
 #include "core/script/runner.h"
@@ -108,7 +109,14 @@ void LivePage::add(std::string_view type, std::string_view data) {
 
 void LivePage::add(const EventStream::Line& line) {
   explanation_.add(line.record, line.step, line.state);
-  add("", line.text.substr(0, line.text.size() - 1));
+  std::string event = without_line_end(std::string(line.text));
+  if (const std::string note = describe_note(catalog_, line.record, line.state); !note.empty()) {
+    event.pop_back();
+    event += R"(,"note":)";
+    append_text(event, note);
+    event += '}';
+  }
+  add("", event);
   if (history_.wants_state()) {
     history_.begin_part(state_of_page(catalog_, line.record.index, line.record.time, line.state));
   }

@@ -114,8 +114,8 @@ void MissionLoader::add_script(const InputFile& file) {
 /// What a script names that its catalog does not have, from its findings. Empty if something else
 /// is wrong.
 std::string MissionLoader::find_outdated(std::size_t first_finding) const {
-  constexpr std::array rules = {rule::undefined_task.name, rule::undefined_behavior.name,
-                                rule::undeclared_situation.name};
+  const std::array rules = {rule::undefined_task.name, rule::undefined_behavior.name,
+                            rule::undeclared_situation.name};
   std::string first;
   std::size_t count = 0;
   for (std::size_t place = first_finding; place < files_.findings().size(); ++place) {

@@ -192,6 +192,9 @@ struct WrittenList {
   }
 };
 
+template <typename Item>
+WrittenList(Item) -> WrittenList<Item>;
+
 constexpr auto run_end = group(
     member("expectations",
            object("expectations",

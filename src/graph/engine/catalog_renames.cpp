@@ -42,7 +42,8 @@ NamesOfKinds names_of(const NamedCatalog& named) {
 
 NamesOfKinds without(NamesOfKinds names, const NamesOfKinds& others) {
   for (auto& [subject, all] : names) {
-    std::erase_if(all, [&](std::string_view name) { return others.at(subject).contains(name); });
+    const Names& of_others = others.at(subject);
+    std::erase_if(all, [&](std::string_view name) { return of_others.contains(name); });
   }
   return names;
 }
