@@ -67,8 +67,6 @@ std::string describe(const CatalogChange& change, const AttributeChange& attribu
 namespace {
 
 using ChangeKind = CatalogChange::Kind;
-using ChangeSubject = CatalogChange::Subject;
-
 /// Walks through two sorted lists side by side. Calls `removed` for what only the old one has,
 /// `added` for what only the new one has, and `kept` for what both have.
 template <typename Item, typename Precedes, typename Removed, typename Added, typename Kept>

@@ -45,6 +45,7 @@ struct CatalogChange {
   /// Of `changed`, at least one; otherwise all that are set: `before` of removed, `after` of added.
   std::vector<AttributeChange> attributes;
 };
+using ChangeSubject = CatalogChange::Subject;
 
 [[nodiscard]] std::string_view name_of(CatalogChange::Kind kind);
 [[nodiscard]] std::string_view name_of(CatalogChange::Subject subject);

@@ -115,7 +115,6 @@ bool precedes(const Fact& a, const Fact& b) {
 }
 
 std::vector<Fact> facts(const NamedCatalog& named, CatalogChange::Subject subject) {
-  using ChangeSubject = CatalogChange::Subject;
   const CompiledCatalog& catalog = named.catalog;
   std::vector<Fact> result;
   const auto task_count = static_cast<std::uint32_t>(catalog.tasks.size());

@@ -21,7 +21,6 @@
 namespace cbc {
 namespace {
 
-using ChangeSubject = CatalogChange::Subject;
 using Names = std::set<std::string_view>;
 
 /// More would take long, and is another catalog rather than a newer one.

@@ -258,7 +258,6 @@ class ExclusionMarker {
 };
 
 using ChangeKind = CatalogChange::Kind;
-using ChangeSubject = CatalogChange::Subject;
 using PlaceByName = std::unordered_map<std::string_view, std::uint32_t>;
 
 Mark mark_of(ChangeKind kind) {

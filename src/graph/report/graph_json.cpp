@@ -174,8 +174,6 @@ std::string graph_schema() {
 namespace {
 
 using ChangeKind = CatalogChange::Kind;
-using ChangeSubject = CatalogChange::Subject;
-
 std::string describe_subject(const CatalogChange& change) {
   const std::string task = printable(change.task);
   const std::string behavior = printable(change.behavior);

@@ -154,10 +154,10 @@ Replay run(const CompiledCatalog& catalog, const Script& script, ReplayListener&
 Replay replay_witness(const CompiledCatalog& catalog, const Witness& witness,
                       const Property& property, const Style& style) {
   SilentRun nothing;
-  Runner beginning(catalog, options_of(witness.script), nothing);
-  beginning.begin(witness.script.situation);
+  Runner before(catalog, options_of(witness.script), nothing);
+  before.begin(witness.script.situation);
   ReplayListener listener(catalog, witness.script, style);
-  listener.set(property, witness.due, beginning.coordinator().state());
+  listener.set(property, witness.due, before.coordinator().state());
   return run(catalog, witness.script, listener);
 }
 
