@@ -9,6 +9,8 @@ namespace cbc {
 namespace {
 
 constexpr std::size_t most_of_a_kind = 3;
+/// More tasks that a goal guards make no difference: chains of thousands would take too long.
+constexpr std::size_t most_guarded = 50;
 
 int importance(Goal::Kind kind) {
   switch (kind) {
@@ -60,14 +62,14 @@ class Dependents {
       }
     }
     std::vector<TaskId> open(tasks.begin(), tasks.end());
-    while (!open.empty()) {
+    while (!open.empty() && tasks.size() < most_guarded) {
       const TaskId task = open.back();
       open.pop_back();
       for (const TaskId dependent : direct_[task]) {
         if (tasks.insert(dependent).second) open.push_back(dependent);
       }
     }
-    return tasks.size();
+    return std::min(tasks.size(), most_guarded);
   }
 
  private:
