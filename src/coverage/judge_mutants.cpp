@@ -97,9 +97,7 @@ int judge_mutants(const CoverageOptions& options, const CoverageQuestion& questi
   }
   if (!can_write_output(options.output)) return exit_unusable;
   if (options.scripts) {
-    if (const std::error_code error = make_folder(*options.scripts)) {
-      return complain("cannot make the folder {}: {}", quote(*options.scripts), error.message());
-    }
+    if (const int status = make_folder(*options.scripts); status != exit_ok) return status;
   }
   std::vector<Script> missions;
   MutantsResult result;

@@ -136,9 +136,7 @@ bool MissionFolder::open() {
 int MissionFolder::replace(const std::vector<File>& files) {
   std::vector<std::string> made;
   if (!files.empty()) {
-    if (const std::error_code error = make_folder(path_)) {
-      return complain("cannot make the folder {}: {}", quote(path_), error.message());
-    }
+    if (const int status = make_folder(path_); status != exit_ok) return status;
   }
   for (const File& file : files) {
     const int status = write_output(path_of(file.name), sign(file.text));

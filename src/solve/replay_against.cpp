@@ -243,21 +243,17 @@ class LogComparison {
     const Answer& left = logged.front();
     const Answer& right = found.front();
     if (left.outcome.empty() || right.outcome.empty() || left.outcome == right.outcome) return;
-    lines_.push_back(
-        {left.time, left.what, fmt::format("{} in place of {}", right.outcome, left.outcome)});
+    lines_.push_back({left.time, left.what, in_place_of(right.outcome, left.outcome)});
   }
   void compare_running(Microseconds time, const Answer* event) {
     std::map<std::string, std::string> differences;  // by task
     for (const auto& [task, behavior] : logged_) {
       const auto other = found_.find(task);
-      if (other == found_.end()) {
-        differences[task] = "nothing in place of " + printable(behavior);
-      } else if (other->second != behavior) {
-        differences[task] = printable(other->second) + " in place of " + printable(behavior);
-      }
+      const std::string now = other == found_.end() ? "" : other->second;
+      if (now != behavior) differences[task] = in_place_of(now, behavior);
     }
     for (const auto& [task, behavior] : found_) {
-      if (!logged_.contains(task)) differences[task] = printable(behavior) + " in place of nothing";
+      if (!logged_.contains(task)) differences[task] = in_place_of(behavior, "");
     }
     const std::string what = event != nullptr ? event->what : "";
     for (const auto& [task, words] : differences) {
@@ -305,15 +301,6 @@ class ReplayAgainst {
   }
 
  private:
-  /// Takes the first line of a text, without its end.
-  static std::string_view take_line(std::string_view& text) {
-    const std::size_t end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    return line;
-  }
-
   /// Runs each event from outside after comparing what came before it.
   int run_steps(std::string_view text, Runner& runner) {
     for (std::uint32_t number = 2; !text.empty(); ++number) {

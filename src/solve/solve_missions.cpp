@@ -135,10 +135,6 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
   };
   int status = exit_ok;
   const auto after_run = [&](const Mission& mission, const RunResult& result) {
-    if (!mission.outdated.empty()) {
-      status = std::max<int>(status, exit_no);
-      return;
-    }
     const std::string reason = describe_end(result, coordinator_options(options, *mission.catalog));
     if (!reason.empty()) complain_of_run(mission, result, reason);
     status = std::max(status, status_of(result));

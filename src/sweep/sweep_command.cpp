@@ -147,10 +147,8 @@ bool can_write_slowest(const SweepOptions& options) {
 /// Writes the script of each difference. Returns the exit status.
 int write_scripts(const SweptComparison& comparison, const SweepOptions& options) {
   if (!options.scripts) return exit_ok;
-  if (const std::error_code error = make_folder(*options.scripts)) {
-    return complain("cannot make the folder {}: {}", quote(*options.scripts), error.message());
-  }
-  int status = exit_ok;
+  int status = make_folder(*options.scripts);
+  if (status != exit_ok) return status;
   for (std::size_t place = 0; place < comparison.differences.size(); ++place) {
     const std::filesystem::path file = std::filesystem::path(*options.scripts) /
                                        fmt::format("difference-{}.mission.yaml", place + 1);

@@ -221,11 +221,7 @@ int prepare_outputs(const VerifyOptions& options) {
   for (const std::string& output : outputs) {
     if (!can_write_output(output)) return exit_unusable;
   }
-  if (!options.scripts) return exit_ok;
-  if (const std::error_code error = make_folder(*options.scripts)) {
-    return complain("cannot make the folder {}: {}", quote(*options.scripts), error.message());
-  }
-  return exit_ok;
+  return options.scripts ? make_folder(*options.scripts) : exit_ok;
 }
 
 /// One call of the command, after its input was read.

@@ -15,6 +15,7 @@
 #include "golden/process.h"
 #include "support/catalog_files.h"
 #include "support/read_file.h"
+#include "support/renamed.h"
 #include "support/scratch_folder.h"
 
 namespace cbc::golden::rename_test {
@@ -137,23 +138,6 @@ TEST_F(Rename, RefusesWhatIsNoText) {
 
 constexpr const char* new_name = "QUITE_ANOTHER";
 
-std::string with_old_name(std::string text, const std::string& old_name) {
-  const std::string name = new_name;
-  for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos;) {
-    text.replace(at, name.size(), old_name);
-    at += old_name.size();
-  }
-  return text;
-}
-
-/// Sentences say "task LAND" only where a behavior has the same name.
-void remove_messages(nlohmann::ordered_json& json) {
-  if (json.is_object()) json.erase("message");
-  for (auto& part : json) {
-    if (part.is_structured()) remove_messages(part);
-  }
-}
-
 /// A folder with a catalog of catalogs/ and all that is about it.
 class Copy {
  public:
@@ -183,7 +167,7 @@ class Copy {
     const Result result = cbc(arguments);
     EXPECT_EQ(result.status, 0) << result.err;
     auto json = nlohmann::ordered_json::parse(result.out);
-    remove_messages(json);
+    test::drop_messages(json);
     return json.dump();
   }
 
@@ -232,9 +216,9 @@ TEST_P(RenameInGallery, LeavesAllOutcomes) {
   for (const auto& [kind, name] : names) {
     const Result result = copy.cbc({"rename", kind, name, new_name, ".", "--max-states", "200"});
     ASSERT_EQ(result.status, 0) << result.err;
-    EXPECT_EQ(with_old_name(copy.outcomes(), name), outcomes);
+    EXPECT_EQ(test::with_name(copy.outcomes(), new_name, name), outcomes);
     for (const auto& [path, text] : copy.texts()) {
-      EXPECT_EQ(with_old_name(text, name), before.at(path));
+      EXPECT_EQ(test::with_name(text, new_name, name), before.at(path));
     }
     EXPECT_EQ(copy.cbc({"lint", "."}).status, 0);
     ASSERT_EQ(copy.cbc({"rename", kind, new_name, name, ".", "--max-states", "200"}).status, 0);

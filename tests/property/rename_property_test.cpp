@@ -20,6 +20,7 @@
 #include "rename/engine/proof.h"
 #include "rename/engine/renaming.h"
 #include "subject.h"
+#include "support/renamed.h"
 #include "yaml_text.h"
 
 namespace cbc::oracle::rename_property_test {
@@ -103,27 +104,10 @@ std::string rename_script(const std::string& text, const CompiledCatalog& catalo
   return renamed.text;
 }
 
-/// With the old name in place of the new one.
-std::string with_old_name(std::string text, const std::string& old_name) {
-  const std::string name = new_name;
-  for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos;) {
-    text.replace(at, name.size(), old_name);
-    at += old_name.size();
-  }
-  return text;
-}
-
-/// Messages say "task T" only if there is a behavior of this name, too.
-void drop_messages(nlohmann::ordered_json& json) {
-  if (json.is_object()) json.erase("message");
-  if (!json.is_structured()) return;
-  for (auto& part : json) drop_messages(part);
-}
-
 /// What comes of a script, without sentences.
 std::string run(const std::string& catalog, const std::string& script) {
   nlohmann::ordered_json events = run_subject(catalog, script);
-  drop_messages(events);
+  test::drop_messages(events);
   return events.dump();
 }
 
@@ -152,7 +136,7 @@ void check(std::uint64_t seed, Results& results) {
   const CatalogComparison comparison =
       compare_renamed(old_catalog.compiled, new_catalog.compiled, choice.renaming, {200, 0, 0}, 1);
   demand(comparison.result != Verdict::Result::violated, "decided differently");
-  demand(with_old_name(run(catalog.text, script), choice.renaming.old_name) ==
+  demand(test::with_name(run(catalog.text, script), new_name, choice.renaming.old_name) ==
              run(before.catalog, before.script),
          "the script does something else");
 

@@ -258,13 +258,14 @@ int create_output(const std::string& path, std::string_view content) {
   return exit_ok;
 }
 
-std::error_code make_folder(const std::string& path) {
+int make_folder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (!error && !std::filesystem::is_directory(path, error) && !error) {
     error = std::make_error_code(std::errc::not_a_directory);
   }
-  return error;
+  if (error) return complain("cannot make the folder {}: {}", quote(path), error.message());
+  return exit_ok;
 }
 
 bool can_write_output(const std::string& path) {
@@ -305,7 +306,7 @@ std::string describe_end(const RunResult& result, const CoordinatorOptions& opti
 int status_of(const RunResult& result) {
   if (result.status == Coordinator::Status::refused_answer) return exit_internal;
   if (result.status == Coordinator::Status::too_many_clock_events) return exit_unusable;
-  return result.failed > 0 ? exit_no : exit_ok;
+  return result.failed > 0 || !result.was_run ? exit_no : exit_ok;
 }
 
 }  // namespace cbc::cli

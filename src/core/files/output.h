@@ -176,8 +176,9 @@ void hold_standard_descriptors();
 /// The same for a file that must not exist.
 [[nodiscard]] int create_output(const std::string& path, std::string_view content);
 
-/// Makes a folder, and those above it, unless they are there. Says what is in the way, or nothing.
-[[nodiscard]] std::error_code make_folder(const std::string& path);
+/// Makes a folder, and those above it, unless they are there. Returns the exit status, after a
+/// message if it is not exit_ok.
+[[nodiscard]] int make_folder(const std::string& path);
 
 /// Whether write_output could write there now; if not, prints why. For outputs that are written
 /// after long work. Call it when all inputs were read.

@@ -18,6 +18,14 @@
 
 namespace cbc {
 
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
 EventLines::Reading EventLines::read(std::string_view line, std::uint32_t number) {
   Reading reading;
   if (line.ends_with('\r')) line.remove_suffix(1);  // a line end of Windows

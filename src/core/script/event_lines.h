@@ -46,6 +46,9 @@ class EventLines {
 /// The schema that the first line of a stream of events names.
 inline constexpr std::string_view events_schema = "cbc.events/1";
 
+/// Takes the first line of a text, without its end.
+[[nodiscard]] std::string_view take_line(std::string_view& text);
+
 /// Whether a text begins as `cbc solve --format jsonl` begins.
 [[nodiscard]] bool is_log(std::string_view text);
 

@@ -7,18 +7,6 @@
 #include "runtime/base/text.h"
 
 namespace cbc {
-namespace {
-
-/// Takes the first line of a text, without its end.
-std::string_view take_line(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
-}
-
-}  // namespace
 
 std::optional<Script> read_log(std::string_view text, const CompiledCatalog& catalog,
                                std::string& error) {

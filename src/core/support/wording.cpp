@@ -307,6 +307,13 @@ std::string list_words(std::span<const std::string> words, std::string_view last
 std::string list_with_or(std::span<const std::string> words) { return list_words(words, "or"); }
 std::string list_with_and(std::span<const std::string> words) { return list_words(words, "and"); }
 
+std::string in_place_of(std::string_view now, std::string_view before) {
+  const auto name = [](std::string_view text) {
+    return text.empty() ? "nothing" : printable(text);
+  };
+  return concat(name(now), " in place of ", name(before));
+}
+
 std::string percent_encode(std::string_view path) {
   std::string encoded;
   for (const char byte : path) {

@@ -82,6 +82,9 @@ template <typename Things, typename ToText = std::identity>
 /// The lines, joined, are the name.
 [[nodiscard]] std::vector<std::string_view> wrap_name(std::string_view name, std::size_t width);
 
+/// "LIDAR in place of GPS": what there is now, and what there was. Empty: "nothing".
+[[nodiscard]] std::string in_place_of(std::string_view now, std::string_view before);
+
 /// The path of a URI (RFC 3986) for the path of a file: every byte but letters, digits, "-._~" and
 /// "/" is percent-encoded.
 [[nodiscard]] std::string percent_encode(std::string_view path);

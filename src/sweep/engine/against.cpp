@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "core/script/runner.h"
+#include "core/support/wording.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
@@ -53,7 +54,7 @@ void SweptComparison::add(SweptComparison part) {
             });
 }
 
-ComparedCatalogs::ComparedCatalogs(const CompiledCatalog& old_version,
+ComparedVersions::ComparedVersions(const CompiledCatalog& old_version,
                                    const CompiledCatalog& new_version, const Renames& renames)
     : old_catalog(old_version),
       new_catalog(new_version),
@@ -77,7 +78,7 @@ ComparedCatalogs::ComparedCatalogs(const CompiledCatalog& old_version,
   }
 }
 
-SequenceComparison::SequenceComparison(const ComparedCatalogs& catalogs,
+SequenceComparison::SequenceComparison(const ComparedVersions& catalogs,
                                        const CoordinatorOptions& options)
     : catalogs_(catalogs), options_(options) {}
 
@@ -146,8 +147,8 @@ void SequenceComparison::compare_answers(const Step& step, const State& new_stat
   if (*new_outcome_ == *old_outcome_) return;
   const Texts& names = is_task ? catalog.task_names : catalog.behavior_names;
   add(part,
-      fmt::format("{} {}: {} in place of {}", form.name, printable(names[step.subject]),
-                  name_of(*new_outcome_), name_of(*old_outcome_)),
+      fmt::format("{} {}: {}", form.name, printable(names[step.subject]),
+                  in_place_of(name_of(*new_outcome_), name_of(*old_outcome_))),
       new_state);
   compare_part(part, new_state);
   is_over_[part] = true;
@@ -166,17 +167,16 @@ void SequenceComparison::compare_part(std::uint32_t part, const State& new_state
   const auto& to_new = catalogs_.translations.to_new.behaviors;
   const State& old_state = run_->state();
   bool differs = false;
-  for (const ComparedCatalogs::Task& task : catalogs_.tasks[part]) {
+  for (const ComparedVersions::Task& task : catalogs_.tasks[part]) {
     const BehaviorId ours = new_state.behavior(task.of_new);
     const BehaviorId theirs = old_state.behavior(task.of_old);
     if (theirs == none ? ours == none : to_new[theirs] == ours && ours != none) continue;
-    const auto of_new = [&] { return printable(catalogs_.new_catalog.name_of_behavior(ours)); };
-    const auto of_old = [&] { return printable(catalogs_.old_catalog.name_of_behavior(theirs)); };
-    const std::string name = printable(catalogs_.new_catalog.name_of_task(task.of_new));
+    const CompiledCatalog& now = catalogs_.new_catalog;
+    const CompiledCatalog& before = catalogs_.old_catalog;
     add(part,
-        theirs == none ? fmt::format("{}: {} in place of nothing", name, of_new())
-        : ours == none ? fmt::format("{}: nothing in place of {}", name, of_old())
-                       : fmt::format("{}: {} in place of {}", name, of_new(), of_old()),
+        fmt::format("{}: {}", printable(now.name_of_task(task.of_new)),
+                    in_place_of(ours != none ? now.name_of_behavior(ours) : "",
+                                theirs != none ? before.name_of_behavior(theirs) : "")),
         new_state);
     differs = true;
   }
@@ -199,7 +199,7 @@ Expectation SequenceComparison::expectation_of(std::uint32_t part, const State& 
   const CompiledCatalog& catalog = catalogs_.new_catalog;
   Expectation expectation;
   if (!is_by_clock_) expectation.outcome = new_outcome_;
-  for (const ComparedCatalogs::Task& task : catalogs_.tasks[part]) {
+  for (const ComparedVersions::Task& task : catalogs_.tasks[part]) {
     const std::uint32_t place = catalog.tasks[task.of_new].catalog_index;
     if (!new_state.is_running(task.of_new)) {
       expectation.stopped.push_back(place);

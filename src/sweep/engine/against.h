@@ -42,8 +42,8 @@ struct SweptComparison {
 };
 
 /// Two catalogs, and what is the same in them. The catalogs must outlive it.
-struct ComparedCatalogs {
-  ComparedCatalogs(const CompiledCatalog& old_version, const CompiledCatalog& new_version,
+struct ComparedVersions {
+  ComparedVersions(const CompiledCatalog& old_version, const CompiledCatalog& new_version,
                    const Renames& renames);
 
   /// A task of both.
@@ -68,7 +68,7 @@ struct ComparedCatalogs {
 /// about are not compared any more in its sequence, as all that follows would differ, too.
 class SequenceComparison final : public EventListener {
  public:
-  SequenceComparison(const ComparedCatalogs& catalogs, const CoordinatorOptions& options);
+  SequenceComparison(const ComparedVersions& catalogs, const CoordinatorOptions& options);
 
   struct Found {
     std::uint64_t sequences = 0;
@@ -110,7 +110,7 @@ class SequenceComparison final : public EventListener {
   void add(std::uint32_t part, const std::string& line, const State& new_state);
   [[nodiscard]] Expectation expectation_of(std::uint32_t part, const State& new_state) const;
 
-  const ComparedCatalogs& catalogs_;
+  const ComparedVersions& catalogs_;
   const CoordinatorOptions options_;
   std::optional<Coordinator> run_;  ///< of the old catalog
   Coordinator::Status status_ = Coordinator::Status::ok;

@@ -248,10 +248,9 @@ void EventGenerator::mend(Step& step) {
 void EventGenerator::break_something(const State& state, Step& step) {
   find_running(state);
   const std::uint64_t point = random_.next();
-  Name behavior = names_.behaviors()[choose(names_.behaviors(), point)];
-  if (below(2) != 0 && !running_.empty()) {
-    behavior = names_.behavior(any_active(state));
-  }
+  const bool is_active_one = below(2) != 0 && !running_.empty();
+  const Name behavior = is_active_one ? names_.behavior(any_active(state))
+                                      : names_.behaviors()[choose(names_.behaviors(), point)];
   if (below(2) == 0) {
     step.verb = Verb::fault;
     step.subject = behavior.place;

@@ -170,7 +170,7 @@ struct Totals {
 /// Counts the events of one thread.
 class Tally final : public SequenceListener {
  public:
-  Tally(const CompiledCatalog& catalog, const ComparedCatalogs* compared,
+  Tally(const CompiledCatalog& catalog, const ComparedVersions* compared,
         const SweepSettings& settings)
       : catalog_(catalog), was_running_(catalog.tasks.size()) {
     if (compared != nullptr) {
@@ -192,11 +192,13 @@ class Tally final : public SequenceListener {
   }
 
   void on_time(Microseconds time, const State& state) override {
-    if (comparison_ != nullptr) comparison_->on_time(time, state);
+    if (comparison_ == nullptr) return;
+    comparison_->on_time(time, state);
     event_began_ = Clock::now();
   }
   void on_step(const Step& step, const State& state) override {
-    if (comparison_ != nullptr) comparison_->on_step(step, state);
+    if (comparison_ == nullptr) return;
+    comparison_->on_step(step, state);
     event_began_ = Clock::now();
   }
   void on_event(const EventRecord& record, const State& state) override {
@@ -333,7 +335,7 @@ std::optional<SlowestEvent> to_slowest(const Swept& swept,
   return slowest;
 }
 
-SweptComparison to_comparison(const Swept& swept, const ComparedCatalogs& compared,
+SweptComparison to_comparison(const Swept& swept, const ComparedVersions& compared,
                               SequenceComparison::Totals totals) {
   SweptComparison result;
   result.old_catalog = compared.old_catalog.file;
@@ -394,7 +396,7 @@ SweepOutcome sweep(const CompiledCatalog& catalog, const SweepSettings& settings
   const Clock::time_point begin = Clock::now();
   const SequenceRange range = sequences_of(settings);
   const auto threads = std::clamp<std::uint64_t>(range.end - range.first, 1, jobs);
-  std::optional<ComparedCatalogs> compared;
+  std::optional<ComparedVersions> compared;
   if (old_version) compared.emplace(old_version->catalog, catalog, old_version->renames);
   const DrawnNames all_names(catalog);
   const Swept swept{compared ? compared->new_catalog : catalog,
