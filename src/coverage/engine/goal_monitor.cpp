@@ -48,6 +48,7 @@ GoalMonitor::GoalMonitor(const CompiledCatalog& catalog, std::span<const Goal> g
     : catalog_(catalog),
       goals_(goals),
       relaxation_(catalog, options),
+      is_stopped_(options.is_stopped),
       deciding_(catalog.group_count()),
       facts_(catalog, goals.size()),
       met_(goals.size(), 0),
@@ -199,6 +200,7 @@ void GoalMonitor::ask_for_deciding(const EventRecord& record, const Circumstance
     const std::vector<std::uint8_t>& unasked = apart_.empty() ? met_ : apart_;
     for (const std::uint32_t number : deciding) {
       if (unasked[number] != 0 || !relaxation_.may_matter(goals_[number])) continue;
+      if (is_stopped_ && is_stopped_()) break;
       facts_.was_asked[number] = 1;
       if (relaxation_.decided(goals_[number], number)) known->second.push_back(number);
     }

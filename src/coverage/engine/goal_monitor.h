@@ -45,7 +45,8 @@ struct GoalFacts {
 /// "Goals"). Not for use by several threads.
 class GoalMonitor final : public RunListener {
  public:
-  /// `goals` are those of find_goals. Catalog and goals must outlive this object.
+  /// `goals` are those of find_goals. Catalog and goals must outlive this object. Once the options
+  /// say that it is stopped, goals about deciding may be missed.
   GoalMonitor(const CompiledCatalog& catalog, std::span<const Goal> goals,
               const CoordinatorOptions& options);
 
@@ -94,6 +95,7 @@ class GoalMonitor final : public RunListener {
   const CompiledCatalog& catalog_;
   const std::span<const Goal> goals_;
   ConstraintRelaxation relaxation_;
+  const std::function<bool()> is_stopped_;  ///< may be empty
   /// By kind and its subject: the goal, or none. See subject_of.
   std::array<std::vector<std::uint32_t>, Goal::kinds> places_;
   std::vector<std::vector<std::uint32_t>> deciding_;  ///< by group: goals about deciding

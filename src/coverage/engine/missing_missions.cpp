@@ -30,7 +30,7 @@ class MissionFinder {
         goals_(goals),
         assumptions_(assumptions),
         options_(options),
-        simulator_(catalog, goals, assumptions) {}
+        simulator_(catalog, goals, assumptions, options.is_over) {}
 
   MissingMissions find(const std::vector<std::uint8_t>& met) {
     missing_.assign(goals_.size(), 0);
@@ -155,6 +155,7 @@ class MissionFinder {
   void perform(MissionPlanner& planner, const Goals& wanted) {
     for (const MissionPlanner::Path& path : planner.plan(wanted)) {
       show_progress();
+      if (is_over()) return;
       go_on_to(Phase::simulation);
       std::vector<std::uint8_t> is_timeout;
       for (const std::uint32_t edge : path.edges) {
@@ -220,14 +221,16 @@ class MissionFinder {
   }
 
   [[nodiscard]] bool is_stopped() const { return options_.is_stopped && options_.is_stopped(); }
+  [[nodiscard]] bool is_over() const { return options_.is_over && options_.is_over(); }
 
   /// After the exploration, which has a progress of its own.
   void show_progress() const {
     if (options_.on_mission) options_.on_mission(result_.missions.size());
   }
 
-  /// Writes the script, if it meets anything that is missing.
+  /// Writes the script, if it meets anything that is missing, and was not cut short.
   void add(SimulatedRun run) {
+    if (is_over()) return;
     run.script.catalog = options_.catalog;
     MissingMissions::Mission mission;
     Goals counts(goals_.size(), 0);

@@ -61,9 +61,11 @@ struct MissingMissionOptions {
   std::uint32_t events = 8;  ///< of a script, if no goal takes more
   /// Called now and then after the exploration, with the number of scripts so far. May be empty.
   std::function<void(std::size_t number)> on_mission;
-  /// Asked now and then; once it is true, the work ends soon, with simple missions for what is
+  /// Asked now and then; once it is true, the search ends soon, with simple missions for what is
   /// known by then. May be empty.
   std::function<bool()> is_stopped;
+  /// Asked now and then, later: once it is true, no more missions are tried. May be empty.
+  std::function<bool()> is_over;
 };
 
 /// `met`: by goal, whether the present missions meet it. The same input gives the same scripts.

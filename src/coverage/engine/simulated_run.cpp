@@ -17,7 +17,8 @@ class MissionSimulator::Simulation final : public RunListener {
  public:
   Simulation(const MissionSimulator& simulator, GroupId group, Script script)
       : catalog_(simulator.catalog_),
-        monitor_(catalog_, simulator.goals_, {}),
+        monitor_(catalog_, simulator.goals_, options_for_monitor(simulator)),
+        is_over_(simulator.is_over_),
         runner_(catalog_, without_conflicts(script), *this) {
     result_.group = group;
     result_.script = std::move(script);
@@ -28,6 +29,7 @@ class MissionSimulator::Simulation final : public RunListener {
   /// Takes the steps of the script that were not taken.
   void take() {
     while (result_.moments.size() < result_.script.steps.size()) {
+      if (is_over()) return result_.script.steps.resize(result_.moments.size());
       const Step& step = result_.script.steps[result_.moments.size()];
       outcome_.reset();
       if (!runner_.take(step)) result_.fault = runner_.coordinator().internal_error();
@@ -72,7 +74,9 @@ class MissionSimulator::Simulation final : public RunListener {
     Step& step = result_.script.steps.emplace_back();
     step.expect.emplace();
     step.time = *due + 1;
+    const std::size_t taken = result_.moments.size();
     take();
+    if (result_.moments.size() == taken) return false;
     // A time that is easy to read, if nothing else comes due until then.
     const std::optional<Microseconds> next = runner_.coordinator().next_due();
     for (const Microseconds later : {second, second / 10, second / 100, second / 1000}) {
@@ -82,6 +86,14 @@ class MissionSimulator::Simulation final : public RunListener {
       break;
     }
     return true;
+  }
+
+  [[nodiscard]] bool is_over() const { return is_over_ && is_over_(); }
+
+  static CoordinatorOptions options_for_monitor(const MissionSimulator& simulator) {
+    CoordinatorOptions options;
+    options.is_stopped = simulator.is_over_;
+    return options;
   }
 
   static CoordinatorOptions without_conflicts(const Script& script) {
@@ -125,6 +137,7 @@ class MissionSimulator::Simulation final : public RunListener {
 
   const CompiledCatalog& catalog_;
   GoalMonitor monitor_;
+  const std::function<bool()>& is_over_;
   Runner runner_;
   SimulatedRun result_;
   std::optional<Outcome> outcome_;

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/property/properties.h"
@@ -35,10 +37,10 @@ struct SimulatedRun {
 /// Runs missions of one group, monitored for goals, before they are written down.
 class MissionSimulator {
  public:
-  /// All must outlive this object.
+  /// All must outlive this object. Once `is_over` is true, runs are cut short; it may be empty.
   MissionSimulator(const CompiledCatalog& catalog, std::span<const Goal> goals,
-                   const Assumptions& assumptions)
-      : catalog_(catalog), goals_(goals), assumptions_(assumptions) {}
+                   const Assumptions& assumptions, std::function<bool()> is_over = {})
+      : catalog_(catalog), goals_(goals), assumptions_(assumptions), is_over_(std::move(is_over)) {}
 
   /// A mission of these moves, without timeouts.
   [[nodiscard]] SimulatedRun run(GroupId group, const std::vector<Move>& moves) const;
@@ -58,6 +60,7 @@ class MissionSimulator {
   const CompiledCatalog& catalog_;
   const std::span<const Goal> goals_;
   const Assumptions& assumptions_;
+  const std::function<bool()> is_over_;
 };
 
 struct WrittenScript {
