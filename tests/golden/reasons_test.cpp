@@ -64,8 +64,8 @@ TEST_F(ReplayReasons, NameWhatDiffersInALongList) {
   for (int task = 0; task < 30; ++task) events += "{start: T" + std::to_string(task) + "}\n";
   const Result result =
       replay(cases / "reasons_active_difference/robot.yaml", events, [](std::string log) {
-        const std::size_t place = log.rfind("\"T17\":\"BEHAVIOR_17\"");
-        return log.replace(place, 19, "\"T17\":\"BEHAVIOR_7\"");
+        const std::size_t place = log.rfind(R"("T17":"BEHAVIOR_17")");
+        return log.replace(place, 19, R"("T17":"BEHAVIOR_7")");
       });
   EXPECT_EQ(result.status, 1);
   EXPECT_NE(result.err.find("the first difference: they differ in 'running'\n"

@@ -21,6 +21,8 @@ struct ReportedCase {
   std::vector<std::string> said;      ///< is in the output
   std::vector<std::string> not_said;  ///< is not
 
+  // GoogleTest looks for this name.
+  // NOLINTNEXTLINE(readability-identifier-naming)
   friend void PrintTo(const ReportedCase& reported, std::ostream* out) {
     *out << reported.folder;
     for (const std::string& argument : reported.arguments) *out << ' ' << argument;

@@ -37,7 +37,7 @@ TEST(Schemas, ArePrintedAsTheyAre) {
 TEST(Schemas, NeedNoOtherFile) {
   for (const fs::path& file : schema_files()) {
     const std::string text = test::read_file(file);
-    const std::string reference = "\"$ref\": \"";
+    const std::string reference = R"("$ref": ")";
     for (std::size_t at = 0; (at = text.find(reference, at)) != std::string::npos; ++at) {
       EXPECT_EQ(text[at + reference.size()], '#') << file;
     }

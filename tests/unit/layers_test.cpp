@@ -50,7 +50,7 @@ struct Include {
 
 std::vector<Include> all_includes() {
   std::vector<Include> includes;
-  const std::regex form("^#include \"(?:([a-z_/]+)/)?[a-z_]+\\.h\"");
+  const std::regex form(R"(^#include "(?:([a-z_/]+)/)?[a-z_]+\.h")");
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(source)) {
     if (!is_source(entry.path())) continue;
     const fs::path path = entry.path().lexically_relative(source);

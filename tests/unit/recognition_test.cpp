@@ -40,9 +40,7 @@ TEST(Recognition, FindsCatalogsThatAreNoYaml) {
         "\"behaviors\" : [\n\t{\n", "{x: 1, behaviors: [{\n", "basic_behaviors:\n\t- behavior: A\n",
         "x: 1\n\tbehavior_descriptors:\n",
         "exclusivity_constraints:\n\t- mutually_exclusive: [A]\n", "tasks:\n\t- task: A\n",
-        "tasks:\n\t- x\ndefault_values:\n",
-        "\xC2\xA0"
-        "behaviors:\n\t- a\n",
+        "tasks:\n\t- x\ndefault_values:\n", "\u00A0behaviors:\n\t- a\n",
         "behaviors:\r- {behavior: A}\r", "a: 1\n---\nbehaviors:\n- {behavior: A, task: B}\n"}) {
     EXPECT_EQ(kind(text), "faulty catalog") << text;
   }

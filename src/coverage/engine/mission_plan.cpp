@@ -512,6 +512,7 @@ std::vector<MissionPlanner::Path> MissionPlanner::paths_toward(const Goals& want
   });
   if (states.size() > count) states.resize(count);
   std::vector<Path> paths;
+  paths.reserve(states.size());
   for (const std::uint32_t state : states) paths.push_back({part_of(state), shortest_to(state)});
   return paths;
 }

@@ -107,6 +107,7 @@ class Renamer {
       edits.emplace(edit.span.begin, edit);
     }
     std::vector<yaml::TextEdit> in_order;
+    in_order.reserve(edits.size());
     for (const auto& [begin, edit] : edits) in_order.push_back(edit);
     return {yaml::apply_edits(text_, in_order), in_order.size(), std::nullopt};
   }

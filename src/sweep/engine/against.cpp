@@ -78,9 +78,8 @@ ComparedVersions::ComparedVersions(const CompiledCatalog& old_version,
   }
 }
 
-SequenceComparison::SequenceComparison(const ComparedVersions& catalogs,
-                                       const CoordinatorOptions& options)
-    : catalogs_(catalogs), options_(options) {}
+SequenceComparison::SequenceComparison(const ComparedVersions& catalogs, CoordinatorOptions options)
+    : catalogs_(catalogs), options_(std::move(options)) {}
 
 void SequenceComparison::Found::add(const Found& other) {
   const std::uint64_t sum = sequences + other.sequences;

@@ -68,7 +68,7 @@ struct ComparedVersions {
 /// about are not compared any more in its sequence, as all that follows would differ, too.
 class SequenceComparison final : public EventListener {
  public:
-  SequenceComparison(const ComparedVersions& catalogs, const CoordinatorOptions& options);
+  SequenceComparison(const ComparedVersions& catalogs, CoordinatorOptions options);
 
   struct Found {
     std::uint64_t sequences = 0;

@@ -336,13 +336,13 @@ std::optional<SlowestEvent> to_slowest(const Swept& swept,
 }
 
 SweptComparison to_comparison(const Swept& swept, const ComparedVersions& compared,
-                              SequenceComparison::Totals totals) {
+                              const SequenceComparison::Totals& totals) {
   SweptComparison result;
   result.old_catalog = compared.old_catalog.file;
   result.names = compared.names;
   result.events = totals.events;
   result.sequences = totals.sequences;
-  for (auto& [line, found] : totals.found) {
+  for (const auto& [line, found] : totals.found) {
     std::vector<Step> steps = swept.steps_of(found.sequence, 0);
     steps.resize(found.steps);
     if (found.is_by_clock) {
@@ -352,7 +352,7 @@ SweptComparison to_comparison(const Swept& swept, const ComparedVersions& compar
     }
     Step end;
     end.time = steps.back().time;
-    end.expect = std::move(found.expectation);
+    end.expect = found.expectation;
     steps.push_back(std::move(end));
     const std::string comment = fmt::format(
         "Sequence {} of a sweep with seed {}, up to where {} and {} differ:\n"
