@@ -46,19 +46,12 @@ class Deadline {
 
   [[nodiscard]] bool has_come() const { return signals_.have_come() || is_late(); }
   [[nodiscard]] bool is_late() const { return seconds_ > 0 && seconds_left() <= 0; }
-  [[nodiscard]] bool was_interrupted() const { return signals_.have_come(); }
-  /// Earlier, by the last part of the limit, in which what was found is written down.
-  [[nodiscard]] bool ends_search(double last_part) const {
-    return has_come() || (seconds_ > 0 && seconds_left() < last_part * seconds_);
-  }
-  /// The time is over, or a signal came so long ago that whoever sent it waits.
+  /// It came so long ago that whoever set it waits.
   [[nodiscard]] bool is_over() const {
     constexpr std::chrono::seconds patience(2);
-    if (is_late()) return true;
-    if (!signals_.have_come()) return false;
     const auto now = std::chrono::steady_clock::now();
-    if (!signal_) signal_ = now;
-    return now - *signal_ > patience;
+    if (!came_ && has_come()) came_ = now;
+    return came_ && now - *came_ > patience;
   }
   /// Of a limit.
   [[nodiscard]] double seconds_left() const {
@@ -79,7 +72,8 @@ class Deadline {
   const StopSignals signals_;
   const double seconds_;
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  mutable std::optional<std::chrono::steady_clock::time_point> signal_;  ///< when it was seen
+  /// When it was seen to have come.
+  mutable std::optional<std::chrono::steady_clock::time_point> came_;
 };
 
 /// Runs missions, up to `jobs` at once, and hands out the results in their order until `take`

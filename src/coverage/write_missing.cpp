@@ -188,8 +188,7 @@ std::optional<std::vector<std::uint8_t>> goals_met_by(const std::vector<Mission>
 MissingMissions find_missing(const CoverageOptions& options, const CoverageQuestion& question,
                              const std::vector<Goal>& goals, const std::vector<std::uint8_t>& met,
                              const Deadline& deadline) {
-  constexpr double for_planning = 0.3;  // of the time, with the scripts
-  constexpr double for_the_scripts = 0.1;
+  constexpr double for_planning = 0.2;
   const CompiledCatalog& catalog = *question.catalog;
   GroupProgress progress("exploring", catalog.group_count());
   MissingMissionOptions of_search;
@@ -202,7 +201,7 @@ MissingMissions find_missing(const CoverageOptions& options, const CoverageQuest
   of_search.on_mission = [&](std::size_t number) {
     progress.line().show(fmt::format(" ({})", quantity(number, "test")));
   };
-  of_search.is_stopped = [&] { return deadline.ends_search(for_the_scripts); };
+  of_search.is_stopped = [&] { return deadline.has_come(); };
   of_search.is_over = [&] { return deadline.is_over(); };
   return find_missing_missions(catalog, goals, met, question.assumptions.assumptions, of_search);
 }
@@ -226,8 +225,7 @@ std::string describe_end_of(const MissingMissions& missing, bool were_all_run, s
     place = fmt::format("after {} had been found", quantity(missing.missions.size(), "test"));
   }
   return fmt::format(
-      "{} {}",
-      deadline.was_interrupted() ? "interrupted" : fmt::format("--time-limit {} ended it", limit),
+      "{} {}", deadline.is_late() ? fmt::format("--time-limit {} ended it", limit) : "interrupted",
       place);
 }
 
