@@ -36,6 +36,12 @@ struct StreamOptions {
   std::optional<std::string> serve;  ///< where a page shows the stream
 };
 
+/// What could happen next in a mission.
+struct WhatIfOptions {
+  bool is_wanted = false;
+  std::optional<std::uint64_t> after;  ///< number of an event; 0: before the first one
+};
+
 /// The options of `cbc solve`.
 struct SolveOptions {
   std::vector<std::string> paths;
@@ -48,6 +54,7 @@ struct SolveOptions {
   SearchLimits search;
   std::string time_limit;
   StreamOptions stream;
+  WhatIfOptions what_if;
 };
 
 /// The options of the coordinator for a run on this catalog, which must know all names.
@@ -78,6 +85,10 @@ void tell_left_out(const std::string& page, std::uint64_t events);
 /// them run; null if it is the first path, or they name theirs. Returns the exit status.
 [[nodiscard]] int solve_missions(const SolveOptions& options,
                                  std::shared_ptr<const CheckedCatalog> catalog = nullptr);
+
+/// Runs the only script to one of its events, and reports what could happen then. Returns the exit
+/// status.
+[[nodiscard]] int solve_what_if(const SolveOptions& options);
 
 /// Runs one script, or events from standard input, and writes each event as a line. The paths are
 /// a catalog and a script, "-" for a stream; or a script that names its catalog. Returns the exit

@@ -111,6 +111,7 @@ int solve(const SolveOptions& options) {
                        "--html cannot be used with '--format jsonl': it draws whole runs; --serve "
                        "shows a stream, and --replay LOG --html FILE draws a recorded one");
   }
+  if (options.what_if.is_wanted) return solve_what_if(options);
   if (options.stream.replay) return replay(options);
   if (options.format == "jsonl") return solve_stream(options);
   return solve_missions(options);
@@ -127,6 +128,17 @@ void add_reasons(Command& command, ExplainOptions& options) {
                         "The K best configurations at each event")}) {
     option->not_with({"--format junit", "--format github"}, "it has no place for reasons");
   }
+}
+
+void add_what_if(Command& command, WhatIfOptions& options) {
+  command.flag("--what-if", options.is_wanted, "List what could happen next in one mission")
+      .only_with_values("--format", {"text", "json"})
+      .not_with({"--html", "--brief", "--stats", "--jobs", "--why", "--alternatives", "--replay"},
+                "it reports moves from one state, not a run");
+  command
+      .option("--after", options.after, whole_number("N", 0),
+              "After its event N (default: the last one)")
+      .only_with({"--what-if"});
 }
 
 void add_stream_options(Command& command, StreamOptions& options) {
@@ -175,8 +187,7 @@ void add_solve_command(Program& program) {
        solve_examples,
        solve_footer});
   command.argument("CATALOG SCRIPT", options->paths, input("...", ValueKind::catalog_or_script),
-                   "The catalog, unless the scripts name it; then event scripts, folders of them, "
-                   "or - for standard input");
+                   "Catalog, unless scripts name it; scripts, folders or -");
   command.format_option(options->format, formats);
   command.option("--html", options->html, further_output("FILE"),
                  "Also write a page with a timeline");
@@ -189,6 +200,7 @@ void add_solve_command(Program& program) {
       .not_with({"--format junit", "--format github"}, "it has no place for times");
   command.add_confinement();
   add_reasons(command, options->explain);
+  add_what_if(command, options->what_if);
 
   command.group("Search");
   add_search_limits(command, options->search);
