@@ -70,7 +70,7 @@ int solve_what_if(const SolveOptions& options) {
   }
   const std::vector<Step> steps = list_moves(catalog, state, choice_of(catalog, mission.script));
   const RunResult result = try_moves(catalog, coordination, search.moment->snapshot, steps,
-                                     [&report](const Move& move) { report->add(move); });
+                                     [&report](const PossibleMove& move) { report->add(move); });
   if (const std::string reason = describe_end(result, coordination); !reason.empty()) {
     complain_of_run(mission, result, reason);
     return status_of(result);

@@ -14,6 +14,7 @@
 #include "graph/report/graph_report.h"
 #include "graph/report/tables.h"
 #include "lint/report/lint_report.h"
+#include "solve/report/what_if_report.h"
 #include "support/read_file.h"
 #include "sweep/report/sweep_report.h"
 #include "verify/report/verify_report.h"
@@ -38,7 +39,8 @@ constexpr File files[] = {{"catalog-dump", catalog_schema},
                           {"state", state_schema},
                           {"sweep", sweep_schema},
                           {"together", together_schema},
-                          {"verify", verify_schema}};
+                          {"verify", verify_schema},
+                          {"what-if", what_if_schema}};
 
 class SchemaFile : public testing::TestWithParam<File> {};
 

@@ -41,17 +41,17 @@ class MomentKeeper final : public RunListener {
   void keep_present() { keep(std::move(last_)); }
 
   [[nodiscard]] bool has_moment() const { return moment_.has_value(); }
-  [[nodiscard]] std::optional<Moment> take() { return std::move(moment_); }
+  [[nodiscard]] std::optional<MissionMoment> take() { return std::move(moment_); }
 
  private:
   void keep(std::optional<KeptEvent> event) {
-    moment_.emplace(Moment{runner_->snapshot(), std::move(event)});
+    moment_.emplace(MissionMoment{runner_->snapshot(), std::move(event)});
   }
 
   const std::optional<std::uint64_t> wanted_;
   const Runner* runner_ = nullptr;
   std::optional<KeptEvent> last_;
-  std::optional<Moment> moment_;
+  std::optional<MissionMoment> moment_;
 };
 
 }  // namespace
@@ -178,7 +178,7 @@ std::vector<Step> list_moves(const CompiledCatalog& catalog, const State& state,
   return steps;
 }
 
-MoveEffects effects_of(const CompiledCatalog& catalog, const Move& move) {
+MoveEffects effects_of(const CompiledCatalog& catalog, const PossibleMove& move) {
   MoveEffects effects;
   for (const TaskId task : catalog.task_ids) {
     const BehaviorId before = move.before.behavior(task);
@@ -231,7 +231,7 @@ class MoveRecorder final : public EventListener {
   const Step* step_ = nullptr;
   std::size_t count_ = 0;
   std::optional<State> before_;
-  std::vector<Move::Event> events_;
+  std::vector<PossibleMove::Event> events_;
 };
 
 }  // namespace

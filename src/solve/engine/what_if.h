@@ -34,14 +34,15 @@ struct KeptEvent {
 }
 
 /// A state of a mission, between two events.
-struct Moment {
+struct MissionMoment {
   Snapshot snapshot;
   std::optional<KeptEvent> event;  ///< the last one; empty before the first
 };
 
 struct MomentSearch {
-  std::optional<Moment> moment;  ///< empty: there is no such event, or the run ended before it
-  RunResult result;              ///< of the run up to the moment, or to its end
+  std::optional<MissionMoment>
+      moment;        ///< empty: there is no such event, or the run ended before it
+  RunResult result;  ///< of the run up to the moment, or to its end
 };
 
 /// Runs a mission until the event with this number is done (0: before the first one), or to its
@@ -71,7 +72,7 @@ struct MoveChoice {
                                            const MoveChoice& choice);
 
 /// What a move would do.
-struct Move {
+struct PossibleMove {
   struct Event : KeptEvent {
     State after;
 
@@ -93,10 +94,10 @@ struct MoveEffects {
   std::vector<TaskId> changed;  ///< run before and after it, with different behaviors
 };
 
-[[nodiscard]] MoveEffects effects_of(const CompiledCatalog& catalog, const Move& move);
+[[nodiscard]] MoveEffects effects_of(const CompiledCatalog& catalog, const PossibleMove& move);
 
 /// Valid until the function returns.
-using TakeMove = std::function<void(const Move&)>;
+using TakeMove = std::function<void(const PossibleMove&)>;
 
 /// Tries each of the steps in the state, and then what the clock does next if nothing else happens:
 /// all events of the first instant at which there is one. The options are those of the mission.

@@ -14,7 +14,7 @@ namespace json::what_if {
 /// A move with what it does.
 struct Described {
   const CompiledCatalog& catalog;
-  const Move& move;
+  const PossibleMove& move;
   MoveEffects effects;
 };
 
@@ -27,7 +27,7 @@ constexpr auto with_behaviors = [](const std::vector<TaskId>& tasks, const Descr
 
 /// An event of a move, which is the context.
 struct EventOfMove {
-  void write(JsonWriter& json, const Move::Event& of, const Described& in) const {
+  void write(JsonWriter& json, const PossibleMove::Event& of, const Described& in) const {
     const EventWithState event_with_state{
         {in.catalog, of.record, of.after}, of.step, {}, {in.catalog, of.after}};
     event.write(json, event_with_state, static_cast<const Decision&>(event_with_state));
@@ -115,7 +115,7 @@ constexpr auto report = object(
 
 }  // namespace json::what_if
 
-void WhatIfJson::add(const Move& move) {
+void WhatIfJson::add(const PossibleMove& move) {
   JsonWriter json(moves_);
   moves_ += moves_.empty() ? "\n" : ",\n";
   json::what_if::move.write(

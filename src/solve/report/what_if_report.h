@@ -19,7 +19,7 @@ namespace cbc {
 struct WhatIfState {
   const CompiledCatalog& catalog;
   const Script& script;
-  const Moment& moment;
+  const MissionMoment& moment;
   const State& state;  ///< that of the moment
 };
 
@@ -27,7 +27,7 @@ struct WhatIfState {
 class WhatIfReport {
  public:
   virtual ~WhatIfReport() = default;
-  virtual void add(const Move& move) = 0;
+  virtual void add(const PossibleMove& move) = 0;
   /// After the last move.
   [[nodiscard]] virtual std::string finish() = 0;
 };
@@ -38,7 +38,7 @@ class WhatIfText final : public WhatIfReport {
  public:
   WhatIfText(const WhatIfState& of, const Style& style, std::size_t columns);
 
-  void add(const Move& move) override;
+  void add(const PossibleMove& move) override;
   [[nodiscard]] std::string finish() override;
 
  private:
@@ -69,7 +69,7 @@ class WhatIfJson final : public WhatIfReport {
  public:
   explicit WhatIfJson(const WhatIfState& of) : of_(of) {}
 
-  void add(const Move& move) override;
+  void add(const PossibleMove& move) override;
   [[nodiscard]] std::string finish() override;
 
  private:

@@ -52,7 +52,7 @@ std::string name_of_move(const CompiledCatalog& catalog, const KeptEvent& event)
 }
 
 /// The tasks that run before and after the move with a request of another priority, if any.
-void add_requests(const CompiledCatalog& catalog, const Move& move,
+void add_requests(const CompiledCatalog& catalog, const PossibleMove& move,
                   std::vector<std::string>& parts) {
   for (const TaskId task : catalog.task_ids) {
     if (!move.before.is_running(task) || !move.after().is_running(task)) continue;
@@ -65,7 +65,8 @@ void add_requests(const CompiledCatalog& catalog, const Move& move,
 }
 
 /// The reactive tasks that come into the queue.
-void add_queue(const CompiledCatalog& catalog, const Move& move, std::vector<std::string>& parts) {
+void add_queue(const CompiledCatalog& catalog, const PossibleMove& move,
+               std::vector<std::string>& parts) {
   const auto before = queue_of(catalog, move.before);
   for (const auto& entry : queue_of(catalog, move.after())) {
     const auto& [index, due] = entry;
@@ -75,9 +76,10 @@ void add_queue(const CompiledCatalog& catalog, const Move& move, std::vector<std
   }
 }
 
-void add_failed(const CompiledCatalog& catalog, const Move& move, std::vector<std::string>& parts) {
+void add_failed(const CompiledCatalog& catalog, const PossibleMove& move,
+                std::vector<std::string>& parts) {
   std::vector<BehaviorId> failed;
-  for (const Move::Event& event : move.events) {
+  for (const PossibleMove::Event& event : move.events) {
     for (const Change& change : event.record.changes) {
       if (!change.success && std::count(failed.begin(), failed.end(), change.behavior) == 0) {
         failed.push_back(change.behavior);
@@ -101,7 +103,7 @@ std::string short_reason(const CompiledCatalog& catalog, const EventRecord& reco
 }
 
 /// What a move would do; empty if it changes nothing.
-std::string describe_effect(const CompiledCatalog& catalog, const Move& move) {
+std::string describe_effect(const CompiledCatalog& catalog, const PossibleMove& move) {
   std::vector<std::string> parts;
   const EventRecord& record = move.events.front().record;
   if (record.outcome == Outcome::rejected) parts.push_back(short_reason(catalog, record));
@@ -128,7 +130,7 @@ std::string describe_effect(const CompiledCatalog& catalog, const Move& move) {
 WhatIfText::WhatIfText(const WhatIfState& of, const Style& style, std::size_t columns)
     : of_(of), style_(style), columns_(columns == 0 ? text_width : columns) {}
 
-void WhatIfText::add(const Move& move) {
+void WhatIfText::add(const PossibleMove& move) {
   const EventRecord& record = move.events.front().record;
   const std::string title = title_of(record);
   if (sections_.empty() || sections_.back().title != title) sections_.push_back({title, {}, {}});
