@@ -1,7 +1,8 @@
-#include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -18,20 +19,16 @@
 namespace cbc::cli {
 namespace {
 
-/// The mission has no such event, or its run ended before it.
+/// The mission has no such event, or its run ended before it. Returns the exit status.
 int complain_of_event(const Mission& mission, const MomentSearch& search,
-                      const CoordinatorOptions& options, std::optional<std::uint64_t> after) {
+                      const CoordinatorOptions& options) {
   const std::string reason = describe_end(search.result, options);
-  if (!reason.empty()) {
-    complain_of_run(mission, search.result, reason);
-    return std::max<int>(status_of(search.result), exit_unusable);
+  if (reason.empty()) {
+    return complain("--after: script {} makes {} in all", quote(display_name(mission.script.file)),
+                    quantity(search.result.events, "event"));
   }
-  const std::uint64_t events = search.result.events;
-  return complain(
-      "--after: expected an event of {} from 0, the state before the first one, to {}, "
-      "as it has {}; found {}",
-      quote(display_name(mission.script.file)), events, quantity(events, "event"),
-      after.value_or(0));
+  complain_of_run(mission, search.result, reason);
+  return status_of(search.result);
 }
 
 }  // namespace
@@ -56,9 +53,7 @@ int solve_what_if(const SolveOptions& options) {
   coordination = options_of(mission.script, std::move(coordination));
   const MomentSearch search =
       find_moment(catalog, mission.script, coordination, options.what_if.after);
-  if (!search.moment) {
-    return complain_of_event(mission, search, coordination, options.what_if.after);
-  }
+  if (!search.moment) return complain_of_event(mission, search, coordination);
   State state(catalog);
   state.restore(search.moment->snapshot);
   const WhatIfState of{catalog, mission.script, *search.moment, state};

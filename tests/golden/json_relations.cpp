@@ -39,6 +39,8 @@ class Relations {
       check_coverage(report);
     } else if (schema == "cbc.mutants/1") {
       check_mutants(report);
+    } else if (schema == "cbc.what-if/1") {
+      check_what_if(report);
     } else {
       faults_.push_back("the schema is '" + schema + "'");
     }
@@ -49,6 +51,37 @@ class Relations {
  private:
   void expect(bool holds, const std::string& otherwise) {
     if (!holds) faults_.push_back(otherwise);
+  }
+
+  /// What a move changes is the difference between what runs before and after it.
+  void check_what_if(const Json& report) {
+    const Json* before = &report;
+    for (const Json& move : report.at("moves")) {
+      const Json& events = move.at("events");
+      const bool is_of_clock =
+          events[0].at("origin") == "timeout" || events[0].at("origin") == "reactive";
+      std::uint64_t index = before->at(before == &report ? "event" : "index");
+      for (const Json& event : events) expect(event.at("index") == ++index, "a number is wrong");
+      Json started = Json::object();
+      Json changed = Json::object();
+      std::set<std::string> stopped;
+      const Json& running = before->at("running");
+      const Json& after = events.back().at("running");
+      for (const auto& [task, behavior] : after.items()) {
+        if (!running.contains(task)) {
+          started[task] = behavior;
+        } else if (running.at(task) != behavior) {
+          changed[task] = behavior;
+        }
+      }
+      for (const auto& [task, behavior] : running.items()) {
+        if (!after.contains(task)) stopped.insert(task);
+      }
+      expect(move.at("started") == started, "other tasks start");
+      expect(move.at("changed") == changed, "other tasks change");
+      expect(move.at("stopped").get<std::set<std::string>>() == stopped, "other tasks stop");
+      if (is_of_clock) before = &events.back();
+    }
   }
 
   void check_together(const Json& report) {

@@ -110,6 +110,7 @@ const least = {
   sweep: 10,
   together: 3,
   verify: 15,
+  'what-if': 50,
 };
 for (const name of written) {
   const found = documents.filter((item) => item.schema === name).length;

@@ -299,6 +299,12 @@ const lies = {
     ['an unknown goal', attributeOf('execution_goal'), {after: 'odd'}],
   ],
 
+  'what-if': [
+    ['a move without an event', (document) => document.moves[0], {events: []}],
+    ['a task that stops twice', (document) => document.moves[0], {stopped: ['A', 'A']}],
+    ['a task that starts with nothing', (document) => document.moves[0], {started: {A: null}}],
+  ],
+
   'catalog-dump': [
     ['a group without tasks', group, {tasks: []}],
     ['a timeout of 0', task, {timeout: 0}],

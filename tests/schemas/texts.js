@@ -20,6 +20,7 @@ const schemaOf = {
   'cbc.sweep/1': 'sweep',
   'cbc.together/1': 'together',
   'cbc.verify/1': 'verify',
+  'cbc.what-if/1': 'what-if',
 };
 
 /** A text that names its schema at its beginning, or nothing if it does not. */
@@ -91,6 +92,7 @@ class Runs {
     const reasons = [...names.flatMap((name) => ['--why', name]), '--alternatives', '3'];
     const all = ['solve', catalog, script, ...limits, ...reasons, '--stats', '--format'];
     yield* this.labelled(...all, 'json');
+    yield* this.labelled('solve', catalog, script, ...limits, '--what-if', '--format', 'json');
     const state = path.join(this.scratch, 'state.json');
     fs.rmSync(state, {force: true});
     yield* this.labelled(...all, 'jsonl', '--state-out', state);

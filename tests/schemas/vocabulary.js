@@ -4,6 +4,7 @@
 /** Objects whose members have the names of tasks, behaviors or situation variables. */
 const mapsByName = new Set([
   'active',
+  'changed',
   'initially',
   'queue',
   'requests',
@@ -12,6 +13,7 @@ const mapsByName = new Set([
   'situation',
   'start',
   'start_refused',
+  'started',
   'variables',
 ]);
 

@@ -64,24 +64,34 @@ void add_requests(const CompiledCatalog& catalog, const PossibleMove& move,
   }
 }
 
-/// The reactive tasks that come into the queue.
+/// The reactive tasks that come into the queue, but for those that would be dropped as they are
+/// due.
 void add_queue(const CompiledCatalog& catalog, const PossibleMove& move,
                std::vector<std::string>& parts) {
   const auto before = queue_of(catalog, move.before);
   for (const auto& entry : queue_of(catalog, move.after())) {
     const auto& [index, due] = entry;
     if (!due || std::find(before.begin(), before.end(), entry) != before.end()) continue;
+    const TaskId task = catalog.task_ids[index];
+    if (move.after().excludes_running_task(task) || !move.after().has_available_behavior(task)) {
+      continue;
+    }
     parts.push_back(fmt::format("{} may start by itself at {} s",
                                 printable(catalog.task_names[index]), format_time(*due)));
   }
 }
 
+/// The behaviors whose activation fails. Of a rejected event the reasons tell of those that were
+/// not active.
 void add_failed(const CompiledCatalog& catalog, const PossibleMove& move,
                 std::vector<std::string>& parts) {
   std::vector<BehaviorId> failed;
   for (const PossibleMove::Event& event : move.events) {
     for (const Change& change : event.record.changes) {
-      if (!change.success && std::count(failed.begin(), failed.end(), change.behavior) == 0) {
+      const bool is_known =
+          event.record.outcome == Outcome::rejected && !move.before.is_active(change.behavior);
+      if (change.success || is_known) continue;
+      if (std::count(failed.begin(), failed.end(), change.behavior) == 0) {
         failed.push_back(change.behavior);
       }
     }
@@ -102,11 +112,19 @@ std::string short_reason(const CompiledCatalog& catalog, const EventRecord& reco
   return text;
 }
 
+/// Whether a limit ended a search, and the answer is the best so far.
+bool is_cut(const PossibleMove& move) {
+  return std::any_of(move.events.begin(), move.events.end(), [](const KeptEvent& event) {
+    return event.search != nullptr && event.search->result.status == SearchStatus::feasible;
+  });
+}
+
 /// What a move would do; empty if it changes nothing.
 std::string describe_effect(const CompiledCatalog& catalog, const PossibleMove& move) {
   std::vector<std::string> parts;
   const EventRecord& record = move.events.front().record;
   if (record.outcome == Outcome::rejected) parts.push_back(short_reason(catalog, record));
+  if (is_cut(move)) parts.emplace_back("not proven best, as a search limit was reached");
   const MoveEffects effects = effects_of(catalog, move);
   const auto started = [&](TaskId task) { return running_task(catalog, move.after(), task); };
   const auto changed = [&](TaskId task) {
