@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/script/runner.h"
@@ -76,8 +77,8 @@ struct PossibleMove {
   struct Event : KeptEvent {
     State after;
 
-    Event(const EventRecord& of, const Step* its_step, const State& its_after)
-        : KeptEvent(of, its_step), after(its_after) {}
+    Event(const EventRecord& of, const Step* its_step, State its_after)
+        : KeptEvent(of, its_step), after(std::move(its_after)) {}
   };
 
   const State& before;

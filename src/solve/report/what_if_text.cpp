@@ -43,9 +43,8 @@ std::string name_of_move(const CompiledCatalog& catalog, const KeptEvent& event)
   if (record.verb == Verb::situation) {
     return std::string(without_indentation(describe_situation(catalog, event.step->situation)));
   }
-  const std::string name =
-      printable(record.behavior != none ? catalog.name_of_behavior(record.behavior)
-                                        : catalog.name_of_task(record.task));
+  std::string name = printable(record.behavior != none ? catalog.name_of_behavior(record.behavior)
+                                                       : catalog.name_of_task(record.task));
   if (record.origin == Origin::timeout) return name + " times out";
   if (record.origin == Origin::reactive) return name + " starts";
   return name;
