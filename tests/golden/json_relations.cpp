@@ -53,34 +53,36 @@ class Relations {
     if (!holds) faults_.push_back(otherwise);
   }
 
-  /// What a move changes is the difference between what runs before and after it.
+  /// What a move changes can be changed in the state.
   void check_what_if(const Json& report) {
-    const Json* before = &report;
+    const Json& running = report.at("running");
+    std::uint64_t clock = report.at("event");
     for (const Json& move : report.at("moves")) {
-      const Json& events = move.at("events");
-      const bool is_of_clock =
-          events[0].at("origin") == "timeout" || events[0].at("origin") == "reactive";
-      std::uint64_t index = before->at(before == &report ? "event" : "index");
-      for (const Json& event : events) expect(event.at("index") == ++index, "a number is wrong");
-      Json started = Json::object();
-      Json changed = Json::object();
-      std::set<std::string> stopped;
-      const Json& running = before->at("running");
-      const Json& after = events.back().at("running");
-      for (const auto& [task, behavior] : after.items()) {
-        if (!running.contains(task)) {
-          started[task] = behavior;
-        } else if (running.at(task) != behavior) {
-          changed[task] = behavior;
-        }
+      const bool is_of_clock = move.at("origin") != "script";
+      std::uint64_t index = is_of_clock ? clock : report.at("event").get<std::uint64_t>();
+      expect(move.at("index") == ++index, "a move is not the next event");
+      for (const Json& event : move.at("follows")) {
+        expect(event.at("index") == ++index, "an event does not follow");
       }
-      for (const auto& [task, behavior] : running.items()) {
-        if (!after.contains(task)) stopped.insert(task);
+      if (is_of_clock) {
+        clock = index;
+        continue;
       }
-      expect(move.at("started") == started, "other tasks start");
-      expect(move.at("changed") == changed, "other tasks change");
-      expect(move.at("stopped").get<std::set<std::string>>() == stopped, "other tasks stop");
-      if (is_of_clock) before = &events.back();
+      for (const auto& [task, behavior] : move.at("started").items()) {
+        expect(!running.contains(task), "what runs starts: " + task);
+      }
+      for (const auto& [task, behavior] : move.at("changed").items()) {
+        expect(running.value(task, behavior) != behavior, "no change of " + task);
+      }
+      for (const auto& [task, priority] : move.at("requested").items()) {
+        expect(report.at("requests").value(task, 0) != priority, "no other request: " + task);
+      }
+      for (const Json& task : move.at("stopped")) {
+        expect(running.contains(task), "what does not run stops: " + task.dump());
+      }
+      for (const auto& [task, due] : move.at("queued").items()) {
+        expect(report.at("queue").value(task, Json()).is_null(), "it is in the queue: " + task);
+      }
     }
   }
 

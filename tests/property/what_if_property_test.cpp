@@ -6,6 +6,7 @@
 #include <exception>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -172,7 +173,29 @@ void check_effects(const CompiledCatalog& catalog, const PossibleMove& move) {
     demand(contains(effects.changed, task) ==
                (was && is && move.before.behavior(task) != move.after().behavior(task)),
            "a change of behavior is wrong");
+    const auto priority = [task](const State& state) {
+      return state.has_request(task) ? state.request(task).priority : -1;
+    };
+    demand(contains(effects.requested, task) ==
+               (was && is && priority(move.before) != priority(move.after())),
+           "a request is wrong");
+    const auto is_due = [index = catalog.tasks[task].catalog_index](const State& state) {
+      return state.queue().has(index);
+    };
+    demand(contains(effects.queued, task) == (!is_due(move.before) && is_due(move.after())),
+           "the queue is wrong");
   }
+  std::set<std::uint32_t> failed;
+  for (const PossibleMove::Event& event : move.events) {
+    for (const Change& change : event.record.changes) {
+      if (!change.success) failed.insert(catalog.behaviors[change.behavior].catalog_index);
+    }
+  }
+  std::set<std::uint32_t> told;
+  for (const BehaviorId behavior : effects.failed) {
+    told.insert(catalog.behaviors[behavior].catalog_index);
+  }
+  demand(told == failed, "a failure is wrong");
 }
 
 Found find_moves(const CompiledCatalog& catalog, const cbc::Script& script,

@@ -45,6 +45,9 @@ const failure = (report) => report.runs[0].expectations.failures[0];
 const kindOfTotals = of(lineWith('totals'), (line) => line.totals.kinds[0]);
 const goal = (kind) => (report) =>
   report.catalogs[0].goals.find((item) => item.kind === kind);
+const moveWith = (word) => (report) =>
+  report.moves.find((item) => item.outcome === word && item.conflict.length === (word === 'rejected' ? 1 : 0));
+const moveOf = (word) => (report) => report.moves.find((item) => item.verb === word);
 const mutant = (result) => (report) => report.mutants.find((item) => item.result === result);
 const exclusion = (sweep) => sweep.reasons.find((item) => item.kind === 'exclusive');
 const histogram = (sweep) => sweep.nodes.histogram;
@@ -300,9 +303,11 @@ const lies = {
   ],
 
   'what-if': [
-    ['a move without an event', (document) => document.moves[0], {events: []}],
-    ['a task that stops twice', (document) => document.moves[0], {stopped: ['A', 'A']}],
-    ['a task that starts with nothing', (document) => document.moves[0], {started: {A: null}}],
+    ['an accepted move with a conflict', moveWith('rejected'), {outcome: 'accepted'}],
+    ['an accepted fault', moveOf('fault'), {outcome: 'accepted'}],
+    ['a task that stops twice', moveWith('accepted'), {stopped: ['A', 'A']}],
+    ['a task that starts with nothing', moveWith('accepted'), {started: {A: null}}],
+    ['a task that was due at the beginning', moveWith('accepted'), {queued: {A: 0}}],
   ],
 
   'catalog-dump': [

@@ -7,6 +7,8 @@ const mapsByName = new Set([
   'changed',
   'initially',
   'queue',
+  'queued',
+  'requested',
   'requests',
   'running',
   'runs',

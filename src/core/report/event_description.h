@@ -393,6 +393,37 @@ inline constexpr auto alternatives =
 
 inline constexpr auto record_of = [](const auto& of) -> const EventRecord& { return of.record; };
 
+/// Which members an event has by its verb, and what each origin makes.
+inline constexpr std::string_view relations_by_verb = R"([
+      {"$comment": "The members that an event of each verb has.",
+       "if": {"properties": {"verb": {"enum": ["start", "stop"]}}},
+       "then": {"properties": {"priority": true}, "required": ["priority"]},
+       "else": {"properties": {"priority": false}}},
+      {"if": {"properties": {"verb": {"enum": ["situation", "wait"]}}},
+       "then": {"properties": {"name": false}},
+       "else": {"properties": {"name": true}, "required": ["name"]}},
+      {"$comment": "Only a finish that names a task may be about no behavior.",
+       "if": {"properties": {"verb": {"const": "finish"}}, "required": ["task"]},
+       "else": {"properties": {"task": false, "name": {"type": "string"}}}},
+      {"if": {"properties": {"verb": {"const": "finish"}}},
+       "then": {"properties": {"cause": true}, "required": ["cause"]},
+       "else": {"properties": {"cause": false}}},
+      {"if": {"properties": {"verb": {"const": "situation"}}},
+       "then": {"properties": {"situation": true}, "required": ["situation"]},
+       "else": {"properties": {"situation": false, "variables": false}}},
+      {"if": {"properties": {"verb": {"const": "start"}, "origin": {"const": "script"}}},
+       "then": {"properties": {"priority": {"type": "integer", "minimum": 1}}},
+       "else": {"properties": {"parameters": false}}},
+      {"$comment": "What each origin makes.",
+       "if": {"properties": {"origin": {"const": "timeout"}}},
+       "then": {"properties": {"verb": {"const": "finish"}, "cause": {"const": "time_out"}}}},
+      {"if": {"properties": {"origin": {"const": "reactive"}}},
+       "then": {"properties": {"verb": {"const": "start"}, "priority": {"const": 0}}}},
+      {"if": {"properties": {"origin": {"const": "fault"}}},
+       "then": {"properties": {"verb": {"const": "finish"}, "cause": {"const": "process_failure"}}}},
+      {"if": {"properties": {"origin": {"const": "situation"}}},
+       "then": {"properties": {"verb": {"const": "finish"}, "cause": {"const": "situation_change"}}}}])";
+
 inline constexpr auto event =
     object(
         "event", "An event, the answer, and the state after it.", part(record_of, what_happened),
@@ -450,35 +481,7 @@ inline constexpr auto event =
                  [](const EventWithState& of) {
                    return of.adds.alternatives ? &of.record.explanation : nullptr;
                  }))
-        .related(R"([
-      {"$comment": "The members that an event of each verb has.",
-       "if": {"properties": {"verb": {"enum": ["start", "stop"]}}},
-       "then": {"properties": {"priority": true}, "required": ["priority"]},
-       "else": {"properties": {"priority": false}}},
-      {"if": {"properties": {"verb": {"enum": ["situation", "wait"]}}},
-       "then": {"properties": {"name": false}},
-       "else": {"properties": {"name": true}, "required": ["name"]}},
-      {"$comment": "Only a finish that names a task may be about no behavior.",
-       "if": {"properties": {"verb": {"const": "finish"}}, "required": ["task"]},
-       "else": {"properties": {"task": false, "name": {"type": "string"}}}},
-      {"if": {"properties": {"verb": {"const": "finish"}}},
-       "then": {"properties": {"cause": true}, "required": ["cause"]},
-       "else": {"properties": {"cause": false}}},
-      {"if": {"properties": {"verb": {"const": "situation"}}},
-       "then": {"properties": {"situation": true}, "required": ["situation"]},
-       "else": {"properties": {"situation": false, "variables": false}}},
-      {"if": {"properties": {"verb": {"const": "start"}, "origin": {"const": "script"}}},
-       "then": {"properties": {"priority": {"type": "integer", "minimum": 1}}},
-       "else": {"properties": {"parameters": false}}},
-      {"$comment": "What each origin makes.",
-       "if": {"properties": {"origin": {"const": "timeout"}}},
-       "then": {"properties": {"verb": {"const": "finish"}, "cause": {"const": "time_out"}}}},
-      {"if": {"properties": {"origin": {"const": "reactive"}}},
-       "then": {"properties": {"verb": {"const": "start"}, "priority": {"const": 0}}}},
-      {"if": {"properties": {"origin": {"const": "fault"}}},
-       "then": {"properties": {"verb": {"const": "finish"}, "cause": {"const": "process_failure"}}}},
-      {"if": {"properties": {"origin": {"const": "situation"}}},
-       "then": {"properties": {"verb": {"const": "finish"}, "cause": {"const": "situation_change"}}}},
+        .related(relations_by_verb, R"([
       {"$comment": "What there is with each outcome.",
        "if": {"properties": {"verb": {"enum": ["start", "stop", "finish"]}}},
        "else": {"properties": {"outcome": {"const": "unchanged"}}}},

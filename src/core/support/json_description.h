@@ -200,6 +200,13 @@ void put_members(JsonWriter& json, Definitions& definitions, const Members& memb
 
 // Objects.
 
+/// Two JSON arrays that are not empty as one; the second one may be missing.
+[[nodiscard]] inline std::string joined_lists(std::string_view first, std::string_view second) {
+  if (second.empty()) return std::string(first);
+  return std::string(first.substr(0, first.rfind(']'))) + "," +
+         std::string(second.substr(second.find('[') + 1));
+}
+
 template <typename Members>
 struct Object {
   std::string_view name;  ///< of its definition; empty: it is described where it is used
@@ -207,9 +214,12 @@ struct Object {
   Members members;
   /// What holds between members: schemas as a JSON array, which are all true of it.
   std::string_view relations = {};
+  std::string_view more_relations = {};
 
-  [[nodiscard]] constexpr Object related(std::string_view schemas) const {
-    return {name, meaning, members, schemas};
+  /// `more`: further ones, where other objects share the first ones.
+  [[nodiscard]] constexpr Object related(std::string_view schemas,
+                                         std::string_view more = {}) const {
+    return {name, meaning, members, schemas, more};
   }
 
   template <typename Value>
@@ -228,7 +238,7 @@ struct Object {
     json.write("type", "object");
     put_members(json, definitions, members);
     json.write("additionalProperties", false);
-    if (!relations.empty()) json.write_json("allOf", relations);
+    if (!relations.empty()) json.write_json("allOf", joined_lists(relations, more_relations));
   }
   template <typename Value>
   void read(const auto& json, Value& value, const auto& context) const {

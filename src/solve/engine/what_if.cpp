@@ -178,16 +178,43 @@ std::vector<Step> list_moves(const CompiledCatalog& catalog, const State& state,
   return steps;
 }
 
+namespace {
+
+/// Whether a task that goes on running has a request that it did not have before.
+bool is_requested_anew(const Request* before, const Request* after) {
+  return after != nullptr && (before == nullptr || before->priority != after->priority);
+}
+
+bool fails(const PossibleMove& move, BehaviorId behavior) {
+  return std::any_of(move.events.begin(), move.events.end(), [behavior](const auto& event) {
+    const std::vector<Change>& changes = event.record.changes;
+    return std::any_of(changes.begin(), changes.end(), [behavior](const Change& change) {
+      return change.behavior == behavior && !change.success;
+    });
+  });
+}
+
+}  // namespace
+
 MoveEffects effects_of(const CompiledCatalog& catalog, const PossibleMove& move) {
   MoveEffects effects;
-  for (const TaskId task : catalog.task_ids) {
+  const State& state = move.after();
+  for (std::uint32_t index = 0; index < catalog.task_ids.size(); ++index) {
+    const TaskId task = catalog.task_ids[index];
     const BehaviorId before = move.before.behavior(task);
-    const BehaviorId after = move.after().behavior(task);
-    if (before == after) continue;
-    (before == none  ? effects.started
-     : after == none ? effects.stopped
-                     : effects.changed)
-        .push_back(task);
+    const BehaviorId after = state.behavior(task);
+    if (before == none && after != none) effects.started.push_back(task);
+    if (before != none && after == none) effects.stopped.push_back(task);
+    if (before != none && after != none) {
+      if (before != after) effects.changed.push_back(task);
+      if (is_requested_anew(move.before.find_request(task), state.find_request(task))) {
+        effects.requested.push_back(task);
+      }
+    }
+    if (state.queue().has(index) && !move.before.queue().has(index)) effects.queued.push_back(task);
+  }
+  for (const BehaviorId behavior : catalog.behavior_ids) {
+    if (fails(move, behavior)) effects.failed.push_back(behavior);
   }
   return effects;
 }

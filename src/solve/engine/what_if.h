@@ -88,11 +88,14 @@ struct PossibleMove {
   [[nodiscard]] const State& after() const { return events.back().after; }
 };
 
-/// The tasks that a move affects, in catalog order.
+/// What is different after a move, in catalog order.
 struct MoveEffects {
-  std::vector<TaskId> started;  ///< run after it, but not before
-  std::vector<TaskId> stopped;  ///< ran before it, but not after
-  std::vector<TaskId> changed;  ///< run before and after it, with different behaviors
+  std::vector<TaskId> started;     ///< run after it, but not before
+  std::vector<TaskId> stopped;     ///< ran before it, but not after
+  std::vector<TaskId> changed;     ///< run before and after it, with different behaviors
+  std::vector<TaskId> requested;   ///< go on with a request of another priority
+  std::vector<BehaviorId> failed;  ///< whose activation was tried, as they are faulty
+  std::vector<TaskId> queued;      ///< reactive tasks that have come into the queue
 };
 
 [[nodiscard]] MoveEffects effects_of(const CompiledCatalog& catalog, const PossibleMove& move);

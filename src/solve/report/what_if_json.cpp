@@ -11,9 +11,17 @@
 namespace cbc {
 namespace json::what_if {
 
-/// A move with what it does.
-struct Described {
-  const CompiledCatalog& catalog;
+/// A move with what it does. What is said of the event is that of its first one.
+struct Described : EventWithState {
+  Described(const CompiledCatalog& of, const PossibleMove& its_move)
+      : EventWithState{{of, its_move.events.front().record, its_move.events.front().after},
+                       its_move.events.front().step,
+                       no_additions,
+                       {of, its_move.events.front().after}},
+        move(its_move),
+        effects(effects_of(of, its_move)) {}
+
+  static constexpr EventAdditions no_additions = {};
   const PossibleMove& move;
   MoveEffects effects;
 };
@@ -25,36 +33,78 @@ constexpr auto with_behaviors = [](const std::vector<TaskId>& tasks, const Descr
   };
 };
 
-/// An event of a move, which is the context.
-struct EventOfMove {
-  void write(JsonWriter& json, const PossibleMove::Event& of, const Described& in) const {
-    const EventWithState event_with_state{
-        {in.catalog, of.record, of.after}, of.step, {}, {in.catalog, of.after}};
-    event.write(json, event_with_state, static_cast<const Decision&>(event_with_state));
-  }
-  void put_schema(JsonWriter& json, Definitions& definitions) const {
-    event.put_schema(json, definitions);
-  }
-};
+constexpr auto outcome = member(
+    "outcome", words(Outcome::unchanged),
+    "accepted, or rejected, in which case nothing changes. unchanged: there is nothing to decide.",
+    [](const EventRecord& of) { return of.outcome; });
 
-constexpr auto move = object(
-    "move", "Something that could happen next, and what it would do.",
-    member(
-        "started", map(task, behavior),
-        "The tasks that would run, but do not run now, in catalog order, each with its behavior.",
-        [](const Described& of) { return with_behaviors(of.effects.started, of); }),
-    member(
-        "stopped", tasks, "The tasks that run now, but would not, in catalog order.",
-        [](const Described& of) -> const auto& { return of.effects.stopped; }),
-    member("changed", map(task, behavior),
-           "The tasks that would go on running with another behavior, in catalog order, each with "
-           "that behavior.",
-           [](const Described& of) { return with_behaviors(of.effects.changed, of); }),
-    member(
-        "events", list(EventOfMove()).at_least(1),
-        "The event as it would be in a run; the first one has the outcome. Those of origin fault "
-        "and situation that would follow from it at once come behind it.",
-        [](const Described& of) { return of.move.events; }));
+constexpr auto following =
+    object("following", "An event that follows at once from another one.", what_happened, outcome)
+        .related(relations_by_verb, R"([
+      {"properties": {"verb": {"const": "finish"}, "origin": {"enum": ["fault", "situation"]}}}])");
+
+constexpr auto move =
+    object(
+        "move", "Something that could happen next, and what it would do.",
+        part(record_of, what_happened), what_was_said, part(record_of, group(outcome)),
+        member("started", map(task, behavior),
+               "The tasks that would run, but do not run now, in catalog order, each with its "
+               "behavior.",
+               [](const Described& of) { return with_behaviors(of.effects.started, of); }),
+        member(
+            "stopped", tasks, "The tasks that run now, but would not, in catalog order.",
+            [](const Described& of) -> const auto& { return of.effects.stopped; }),
+        member("changed", map(task, behavior),
+               "The tasks that would go on with another behavior, in catalog order, each with "
+               "that behavior.",
+               [](const Described& of) { return with_behaviors(of.effects.changed, of); }),
+        member("requested", map(task, priority),
+               "The tasks that would go on with a request of another priority, in catalog order, "
+               "each with that priority.",
+               [](const Described& of) {
+                 return [&of](const auto& put) {
+                   for (const TaskId id : of.effects.requested) {
+                     put(id, of.move.after().request(id).priority);
+                   }
+                 };
+               }),
+        member(
+            "failed", behaviors,
+            "The behaviors whose activation would be tried and fail, as they are faulty, in "
+            "catalog order.",
+            [](const Described& of) -> const auto& { return of.effects.failed; }),
+        member("queued", map(task, positive_seconds),
+               "The reactive tasks that would come into the queue, in catalog order, each with "
+               "the time when it is due.",
+               [](const Described& of) {
+                 return [&of](const auto& put) {
+                   for (const TaskId id : of.effects.queued) {
+                     put(id, of.move.after().queue().due(of.catalog.tasks[id].catalog_index));
+                   }
+                 };
+               }),
+        member("follows", list(following),
+               "The events of origin fault and situation that would follow at once. What the move "
+               "would do includes what they do.",
+               [](const Described& of) {
+                 return [&of](const auto& put) {
+                   for (const auto& event : of.move.events.subspan(1)) put(event.record);
+                 };
+               }),
+        member("search", nullable(search), "How the answer was found; null if there was no search.",
+               [](const Described& of) { return of.record.search; }),
+        member("conflict",
+               list(pointed(
+                   restricted(reason, R"({"kind": {"not": {"enum": ["finished", "stopped"]}}})"))),
+               "Why the move would be rejected: a minimal set of reasons, as in cbc.solve/1.",
+               [](const Described& of) { return in_order(of.record.conflict, {}, of); }))
+        .related(relations_by_verb, R"([
+      {"if": {"properties": {"outcome": {"const": "rejected"}}},
+       "else": {"properties": {"conflict": {"type": "array", "maxItems": 0}}}},
+      {"if": {"properties": {"verb": {"enum": ["start", "stop", "finish"]}}},
+       "else": {"properties": {"outcome": {"const": "unchanged"}, "search": {"type": "null"}}}},
+      {"if": {"properties": {"outcome": {"const": "accepted"}}},
+       "then": {"properties": {"search": {"type": "object"}}}}])");
 
 /// The moves are written one by one.
 struct Moves {
@@ -118,9 +168,8 @@ constexpr auto report = object(
 void WhatIfJson::add(const PossibleMove& move) {
   JsonWriter json(moves_);
   moves_ += moves_.empty() ? "\n" : ",\n";
-  json::what_if::move.write(
-      json, json::what_if::Described{of_.catalog, move, effects_of(of_.catalog, move)},
-      json::what_if::Described{of_.catalog, move, {}});
+  const json::what_if::Described described(of_.catalog, move);
+  json::what_if::move.write(json, described, static_cast<const json::Decision&>(described));
 }
 
 std::string WhatIfJson::finish() {

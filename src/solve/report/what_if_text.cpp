@@ -50,56 +50,6 @@ std::string name_of_move(const CompiledCatalog& catalog, const KeptEvent& event)
   return name;
 }
 
-/// The tasks that run before and after the move with a request of another priority, if any.
-void add_requests(const CompiledCatalog& catalog, const PossibleMove& move,
-                  std::vector<std::string>& parts) {
-  for (const TaskId task : catalog.task_ids) {
-    if (!move.before.is_running(task) || !move.after().is_running(task)) continue;
-    const Request* const before = move.before.find_request(task);
-    const Request* const after = move.after().find_request(task);
-    if (after == nullptr || (before != nullptr && before->priority == after->priority)) continue;
-    parts.push_back(
-        fmt::format("{} goes on with priority {}", task_name(catalog, task), after->priority));
-  }
-}
-
-/// The reactive tasks that come into the queue, but for those that would be dropped as they are
-/// due.
-void add_queue(const CompiledCatalog& catalog, const PossibleMove& move,
-               std::vector<std::string>& parts) {
-  const auto before = queue_of(catalog, move.before);
-  for (const auto& entry : queue_of(catalog, move.after())) {
-    const auto& [index, due] = entry;
-    if (!due || std::find(before.begin(), before.end(), entry) != before.end()) continue;
-    const TaskId task = catalog.task_ids[index];
-    if (move.after().excludes_running_task(task) || !move.after().has_available_behavior(task)) {
-      continue;
-    }
-    parts.push_back(fmt::format("{} may start by itself at {} s",
-                                printable(catalog.task_names[index]), format_time(*due)));
-  }
-}
-
-/// The behaviors whose activation fails. Of a rejected event the reasons tell of those that were
-/// not active.
-void add_failed(const CompiledCatalog& catalog, const PossibleMove& move,
-                std::vector<std::string>& parts) {
-  std::vector<BehaviorId> failed;
-  for (const PossibleMove::Event& event : move.events) {
-    for (const Change& change : event.record.changes) {
-      const bool is_known =
-          event.record.outcome == Outcome::rejected && !move.before.is_active(change.behavior);
-      if (change.success || is_known) continue;
-      if (std::count(failed.begin(), failed.end(), change.behavior) == 0) {
-        failed.push_back(change.behavior);
-      }
-    }
-  }
-  for (const BehaviorId behavior : failed) {
-    parts.push_back(fmt::format("{} fails", behavior_name(catalog, behavior)));
-  }
-}
-
 /// The first reasons of a rejection, which are those that the others lead to.
 std::string short_reason(const CompiledCatalog& catalog, const EventRecord& record) {
   constexpr std::size_t most = 3;
@@ -121,24 +71,38 @@ bool is_cut(const PossibleMove& move) {
 /// What a move would do; empty if it changes nothing.
 std::string describe_effect(const CompiledCatalog& catalog, const PossibleMove& move) {
   std::vector<std::string> parts;
+  const State& after = move.after();
   const EventRecord& record = move.events.front().record;
-  if (record.outcome == Outcome::rejected) parts.push_back(short_reason(catalog, record));
+  const bool is_rejected = record.outcome == Outcome::rejected;
+  if (is_rejected) parts.push_back(short_reason(catalog, record));
   if (is_cut(move)) parts.emplace_back("not proven best, as a search limit was reached");
   const MoveEffects effects = effects_of(catalog, move);
-  const auto started = [&](TaskId task) { return running_task(catalog, move.after(), task); };
-  const auto changed = [&](TaskId task) {
-    return fmt::format("{}: {} instead of {}", printable(catalog.name_of_task(task)),
-                       behavior_of(catalog, move.after(), task),
-                       behavior_of(catalog, move.before, task));
-  };
-  add_failed(catalog, move, parts);
+  for (const BehaviorId behavior : effects.failed) {
+    // The reasons of a rejection tell of the others.
+    if (is_rejected && !move.before.is_active(behavior)) continue;
+    parts.push_back(fmt::format("{} fails", behavior_name(catalog, behavior)));
+  }
   if (!effects.stopped.empty()) {
     parts.push_back("stops " + join(names_of_tasks(catalog, effects.stopped), ", "));
   }
+  const auto started = [&](TaskId task) { return running_task(catalog, after, task); };
   if (!effects.started.empty()) parts.push_back("starts " + join(effects.started, ", ", started));
-  if (!effects.changed.empty()) parts.push_back(join(effects.changed, "; ", changed));
-  add_requests(catalog, move, parts);
-  add_queue(catalog, move, parts);
+  for (const TaskId task : effects.changed) {
+    parts.push_back(fmt::format("{}: {} instead of {}", printable(catalog.name_of_task(task)),
+                                behavior_of(catalog, after, task),
+                                behavior_of(catalog, move.before, task)));
+  }
+  for (const TaskId task : effects.requested) {
+    parts.push_back(fmt::format("{} goes on with priority {}", task_name(catalog, task),
+                                after.request(task).priority));
+  }
+  for (const TaskId task : effects.queued) {
+    // It would be dropped when it is due.
+    if (after.excludes_running_task(task) || !after.has_available_behavior(task)) continue;
+    const Microseconds due = after.queue().due(catalog.tasks[task].catalog_index);
+    parts.push_back(
+        fmt::format("{} may start by itself at {} s", task_name(catalog, task), format_time(due)));
+  }
   return join(parts, "; ");
 }
 
