@@ -41,8 +41,8 @@ struct MissionMoment {
 };
 
 struct MomentSearch {
-  std::optional<MissionMoment>
-      moment;        ///< empty: there is no such event, or the run ended before it
+  /// Empty: there is no such event, or the run ended before it.
+  std::optional<MissionMoment> moment;
   RunResult result;  ///< of the run up to the moment, or to its end
 };
 
