@@ -11,18 +11,10 @@
 namespace cbc {
 namespace json::what_if {
 
-/// A move with what it does. What is said of the event is that of its first one.
-struct Described : EventWithState {
-  Described(const CompiledCatalog& of, const PossibleMove& its_move)
-      : EventWithState{{of, its_move.events.front().record, its_move.events.front().after},
-                       its_move.events.front().step,
-                       no_additions,
-                       {of, its_move.events.front().after}},
-        move(its_move),
-        effects(effects_of(of, its_move)) {}
-
-  static constexpr EventAdditions no_additions = {};
+/// A move with what it does.
+struct Described {
   const PossibleMove& move;
+  const EventWithState& event;  ///< the first one of it
   MoveEffects effects;
 };
 
@@ -43,10 +35,13 @@ constexpr auto following =
         .related(relations_by_verb, R"([
       {"properties": {"verb": {"const": "finish"}, "origin": {"enum": ["fault", "situation"]}}}])");
 
+constexpr auto event_of = [](const Described& of) -> const EventWithState& { return of.event; };
+
 constexpr auto move =
     object(
         "move", "Something that could happen next, and what it would do.",
-        part(record_of, what_happened), what_was_said, part(record_of, group(outcome)),
+        part(event_of,
+             group(part(record_of, what_happened), what_was_said, part(record_of, group(outcome)))),
         member("started", map(task, behavior),
                "The tasks that would run, but do not run now, in catalog order, each with its "
                "behavior.",
@@ -79,7 +74,7 @@ constexpr auto move =
                [](const Described& of) {
                  return [&of](const auto& put) {
                    for (const TaskId id : of.effects.queued) {
-                     put(id, of.move.after().queue().due(of.catalog.tasks[id].catalog_index));
+                     put(id, of.move.after().queue().due(of.event.catalog.tasks[id].catalog_index));
                    }
                  };
                }),
@@ -92,12 +87,13 @@ constexpr auto move =
                  };
                }),
         member("search", nullable(search), "How the answer was found; null if there was no search.",
-               [](const Described& of) { return of.record.search; }),
-        member("conflict",
-               list(pointed(
-                   restricted(reason, R"({"kind": {"not": {"enum": ["finished", "stopped"]}}})"))),
-               "Why the move would be rejected: a minimal set of reasons, as in cbc.solve/1.",
-               [](const Described& of) { return in_order(of.record.conflict, {}, of); }))
+               [](const Described& of) { return of.event.record.search; }),
+        member(
+            "conflict",
+            list(pointed(
+                restricted(reason, R"({"kind": {"not": {"enum": ["finished", "stopped"]}}})"))),
+            "Why the move would be rejected: a minimal set of reasons, as in cbc.solve/1.",
+            [](const Described& of) { return in_order(of.event.record.conflict, {}, of.event); }))
         .related(relations_by_verb, R"([
       {"if": {"properties": {"outcome": {"const": "rejected"}}},
        "else": {"properties": {"conflict": {"type": "array", "maxItems": 0}}}},
@@ -168,8 +164,15 @@ constexpr auto report = object(
 void WhatIfJson::add(const PossibleMove& move) {
   JsonWriter json(moves_);
   moves_ += moves_.empty() ? "\n" : ",\n";
-  const json::what_if::Described described(of_.catalog, move);
-  json::what_if::move.write(json, described, static_cast<const json::Decision&>(described));
+  const PossibleMove::Event& first = move.events.front();
+  const EventAdditions no_additions;
+  const json::EventWithState event{{of_.catalog, first.record, first.after},
+                                   first.step,
+                                   no_additions,
+                                   {of_.catalog, first.after}};
+  json::what_if::move.write(json,
+                            json::what_if::Described{move, event, effects_of(of_.catalog, move)},
+                            static_cast<const json::Decision&>(event));
 }
 
 std::string WhatIfJson::finish() {
