@@ -55,7 +55,8 @@ class FullDisk(FaultCase):
                 self.assert_refused(run, (os.strerror(errno.ENOSPC),), names)
             self.assert_recovers(run)  # there is space again
         finally:
-            subprocess.run(["umount", str(folder)], check=True)
+            # Lazily: another thread that starts a process may hold a file of it for a moment.
+            subprocess.run(["umount", "--lazy", str(folder)], check=True)
 
     @contextlib.contextmanager
     def filled(self, folder, free_pages, free_inodes):
