@@ -25,6 +25,7 @@ struct VerifyOptions {
   std::vector<std::string> cut_sets;  ///< names of tasks
   std::vector<std::string> refused;   ///< names of tasks
   std::uint32_t order = 2;
+  bool in_some_situation = false;
   std::vector<std::string> situation;  ///< KEY=VALUE
 };
 

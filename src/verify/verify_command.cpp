@@ -91,6 +91,10 @@ void add_verify_command(Program& program) {
               "At most K faults together (default: 2)")
       .only_with({"--cut-sets"});
   command
+      .flag("--in-some-situation", options->in_some_situation,
+            "Also sets that suffice in some situation")
+      .only_with({"--cut-sets"});
+  command
       .option("--situation", options->situation, situation_entry(), "In this situation; repeatable")
       .only_with({"--cut-sets"});
 

@@ -168,6 +168,9 @@ std::string add_to_situation(const CompiledCatalog& catalog, const std::string& 
   const std::string key = entry.substr(0, equals);
   const std::string value = entry.substr(equals + 1);
   if (const auto variable = catalog.find_variable(key)) {
+    for (const VariableValue& given : situation.variables) {
+      if (given.variable == *variable) return printable(key) + ": expected once, found twice";
+    }
     if (const auto place = catalog.find_value(*variable, value)) {
       situation.variables.push_back({*variable, *place});
       return {};
@@ -304,17 +307,27 @@ class Call {
     return prepare_outputs(options_);
   }
 
+  /// The situation of the command line, or else of the property file, and what never occurs.
   int read_situation() {
     for (const std::string& entry : options_.situation) {
-      if (!situation_) situation_.emplace();
-      const std::string fault = add_to_situation(catalog_, entry, *situation_);
+      const std::string fault = add_to_situation(catalog_, entry, result_.situation);
       if (!fault.empty()) return complain("--situation: " + fault);
     }
-    if (!situation_ && questions_.files.size() == 1) {
-      const SituationPart& initially = questions_.files.front()->assumptions.initially;
-      if (!initially.variables.empty() || !initially.behaviors.empty()) situation_ = initially;
+    if (questions_.files.size() != 1) return exit_ok;
+    const PropertyFile& file = *questions_.files.front();
+    if (options_.situation.empty()) result_.situation = file.assumptions.initially;
+    result_.never = file.assumptions.never;
+    if (!options_.situation.empty() && !situations().find(situations().all())) {
+      return complain(
+          "--situation: expected a situation that may occur, but 'never' of {} "
+          "excludes every one with these values",
+          quote(file.path));
     }
     return exit_ok;
+  }
+
+  [[nodiscard]] SituationSpace situations() const {
+    return {catalog_, result_.situation, result_.never};
   }
 
   int read_renames() {
@@ -480,9 +493,9 @@ class Call {
   }
 
   void find_cut_sets() {
-    const std::vector<bool> ruled_out = ruled_out_by(catalog_, situation_);
+    const SituationSpace in = situations();
     for (const TaskId task : cut_tasks_) {
-      result_.cut_sets.push_back(cut_sets_of(task, options_.order, ruled_out, Clock::now()));
+      result_.cut_sets.push_back(cut_sets_of(task, options_.order, in, Clock::now()));
     }
     const bool is_about_groups =
         std::any_of(result_.parts.begin(), result_.parts.end(),
@@ -491,30 +504,32 @@ class Call {
       const Clock::time_point begin = Clock::now();
       for (const TaskId task : catalog_.task_ids) {
         if (catalog_.tasks[task].start_on_request == 0) continue;
-        result_.single_faults.push_back(cut_sets_of(task, 1, ruled_out, begin));
+        result_.single_faults.push_back(cut_sets_of(task, 1, in, begin));
       }
     }
   }
 
   /// `begin`: since when the time limit counts.
-  TaskCutSets cut_sets_of(TaskId task, std::uint32_t order, const std::vector<bool>& ruled_out,
+  TaskCutSets cut_sets_of(TaskId task, std::uint32_t order, const SituationSpace& in,
                           Clock::time_point begin) {
     const auto may_go_on = [&] {
       const std::chrono::duration<double> elapsed = Clock::now() - begin;
       const double limit = result_.limits.seconds;
       return !signals_.have_come() && (limit <= 0 || elapsed.count() < limit);
     };
-    if (!may_go_on()) return {task, order, {}};
+    if (!may_go_on()) return {task, order, {}, options_.in_some_situation};
     Progress progress("searching", 1);
     progress.begin(std::string(catalog_.name_of_task(task)));
     CutSetOptions of_search;
     of_search.order = order;
+    of_search.in_some_situation = options_.in_some_situation;
     of_search.on_progress = [&](const CutSetProgress& so_far) {
-      progress.show(fmt::format(" ({} of {}, {} found)", quantity(so_far.examined, "set"),
-                                quantity(so_far.size, "behavior"), so_far.found));
+      progress.show(fmt::format(
+          " ({} of {}, {} found)", quantity(so_far.examined, "set"),
+          quantity(so_far.size, options_.in_some_situation ? "item" : "behavior"), so_far.found));
       return may_go_on();
     };
-    return {task, order, cbc::find_cut_sets(catalog_, task, ruled_out, of_search)};
+    return {task, order, cbc::find_cut_sets(in, task, of_search), of_search.in_some_situation};
   }
 
   /// Runs all counterexamples and witnesses, and writes them to files.
@@ -570,7 +585,6 @@ class Call {
   StopSignals signals_;
   VerifyResult result_;
   std::vector<TaskId> cut_tasks_;
-  std::optional<SituationPart> situation_;
   ComparisonScope comparison_;
 };
 

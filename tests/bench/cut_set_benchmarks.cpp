@@ -20,12 +20,12 @@ void register_cut_sets(const std::string& name, std::shared_ptr<const CompiledCa
                     tasks = std::move(tasks)](benchmark::State& state) {
     CutSetOptions options;
     options.order = order;
-    const std::vector<bool> ruled_out = ruled_out_by(*catalog, {});
+    const SituationSpace situations(*catalog, {}, {});
     std::size_t found = 0;
     for ([[maybe_unused]] const auto iteration : state) {
       found = 0;
       for (const TaskId task : tasks) {
-        found += find_cut_sets(*catalog, task, ruled_out, options).sets.size();
+        found += find_cut_sets(situations, task, options).sets.size();
       }
     }
     state.counters["found"] = static_cast<double>(found);

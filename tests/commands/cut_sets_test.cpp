@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,7 +24,7 @@ using test::task_id;
 
 std::string show_sets(const CompiledCatalog& catalog, const CutSets& found) {
   std::string text;
-  for (const std::vector<BehaviorId>& set : found.sets) {
+  for (const BehaviorSet& set : found.in_every_situation()) {
     text += text.empty() ? "{" : " {";
     for (std::size_t i = 0; i < set.size(); ++i) {
       if (i > 0) text += ' ';
@@ -36,16 +35,14 @@ std::string show_sets(const CompiledCatalog& catalog, const CutSets& found) {
   return text;
 }
 
-CutSets find(const CompiledCatalog& catalog, std::string_view task, std::uint32_t order,
-             const std::optional<SituationPart>& situation = std::nullopt) {
+CutSets find(const CompiledCatalog& catalog, std::string_view task, std::uint32_t order) {
   CutSetOptions options;
   options.order = order;
-  return find_cut_sets(catalog, task_id(catalog, task), ruled_out_by(catalog, situation), options);
+  return find_cut_sets(SituationSpace(catalog, {}, {}), task_id(catalog, task), options);
 }
 
-std::string cut_sets(const CompiledCatalog& catalog, std::string_view task, std::uint32_t order,
-                     const std::optional<SituationPart>& situation = std::nullopt) {
-  const CutSets found = find(catalog, task, order, situation);
+std::string cut_sets(const CompiledCatalog& catalog, std::string_view task, std::uint32_t order) {
+  const CutSets found = find(catalog, task, order);
   EXPECT_TRUE(found.complete);
   return show_sets(catalog, found);
 }
@@ -64,7 +61,7 @@ TEST(CutSets, SayWhatIsCompleteWhenTheyAreStopped) {
   CutSetOptions options;
   options.order = 4;
   const CutSets all =
-      find_cut_sets(catalog, task_id(catalog, "SURVEY"), ruled_out_by(catalog, {}), options);
+      find_cut_sets(SituationSpace(catalog, {}, {}), task_id(catalog, "SURVEY"), options);
   std::uint32_t reached = 0;
   for (std::uint64_t searches = 0; searches <= all.searches; ++searches) {
     std::uint64_t left = searches;
@@ -75,7 +72,7 @@ TEST(CutSets, SayWhatIsCompleteWhenTheyAreStopped) {
       return left-- > 0;
     };
     const CutSets some =
-        find_cut_sets(catalog, task_id(catalog, "SURVEY"), ruled_out_by(catalog, {}), options);
+        find_cut_sets(SituationSpace(catalog, {}, {}), task_id(catalog, "SURVEY"), options);
     ASSERT_EQ(some.complete, searches == all.searches);
     if (some.complete) {
       EXPECT_EQ(some.sets, all.sets);
@@ -88,7 +85,7 @@ TEST(CutSets, SayWhatIsCompleteWhenTheyAreStopped) {
       if (i < some.sets.size()) {
         EXPECT_EQ(some.sets[i], all.sets[i]);
       } else {
-        EXPECT_GE(all.sets[i].size(), some.incomplete_size) << searches;
+        EXPECT_GE(all.sets[i].behaviors.size(), some.incomplete_size) << searches;
       }
     }
   }
@@ -124,14 +121,14 @@ TEST(CutSets, CanBeStoppedInALongSearch) {
   CutSetOptions options;
   int calls = 0;
   options.on_progress = [&](const CutSetProgress& /*progress*/) { return ++calls > 0; };
-  const CutSets all = find_cut_sets(catalog, task, ruled_out_by(catalog, {}), options);
+  const CutSets all = find_cut_sets(SituationSpace(catalog, {}, {}), task, options);
   EXPECT_TRUE(all.complete);
   EXPECT_EQ(show_sets(catalog, all), "{}");
   EXPECT_EQ(all.searches, 1U);
   EXPECT_GT(calls, 1) << "not hard enough";
   int left = 1;
   options.on_progress = [&](const CutSetProgress& /*progress*/) { return left-- > 0; };
-  const CutSets none = find_cut_sets(catalog, task, ruled_out_by(catalog, {}), options);
+  const CutSets none = find_cut_sets(SituationSpace(catalog, {}, {}), task, options);
   EXPECT_FALSE(none.complete);
   EXPECT_EQ(none.incomplete_size, 0U);
   EXPECT_TRUE(none.sets.empty());
@@ -154,7 +151,7 @@ TEST(CutSets, OfAutoware) {
       {"stop", {1, 0}}};
   for (const auto& [mode, counts] : expected) {
     Counts found(2);
-    for (const auto& set : find(catalog, "/autoware/modes/" + mode, 2).sets) {
+    for (const auto& set : find(catalog, "/autoware/modes/" + mode, 2).in_every_situation()) {
       if (std::all_of(set.begin(), set.end(), is_diagnostic)) ++found.at(set.size() - 1);
     }
     EXPECT_EQ(found, counts) << mode;
@@ -168,6 +165,68 @@ TEST(CutSets, OfTheQuadrotor) {
             "{SELF_LOCALIZE_WITH_GROUND_TRUTH SELF_LOCALIZE_WITH_EKF_SENSOR_FUSION} "
             "{SELF_LOCALIZE_WITH_GROUND_TRUTH ESTIMATE_POSITION_WITH_SENSOR "
             "ESTIMATE_POSITION_WITH_LINEAR_SPEED}");
+}
+
+/// An underwater vehicle that finds its way by what it hears or sees, each in its own water.
+constexpr std::string_view vehicle = R"(situation:
+- {variable: WATER, values: [clear, murky]}
+- {variable: DEPTH, values: [low, high]}
+behaviors:
+- {behavior: map_by_sight, task: MAP, situation: {WATER: clear}, requires: [{task: LOCATE}]}
+- {behavior: map_by_sonar, task: MAP, situation: {WATER: murky}, requires: [{task: LOCATE}]}
+- {behavior: see_ground, task: LOCATE, situation: {WATER: clear, DEPTH: low}}
+- {behavior: hear_beacon, task: LOCATE, situation: {WATER: murky}}
+- {behavior: dig, task: SAMPLE, situation: {DEPTH: high}, requires: [{task: HOLD}]}
+- {behavior: hold, task: HOLD, situation: {DEPTH: low}}
+)";
+
+TEST(CutSets, CountOnlyBehaviorsThatFitTogether) {
+  const CompiledCatalog catalog = compile_text(vehicle);
+  EXPECT_EQ(cut_sets(catalog, "MAP", 2),
+            "{map_by_sight map_by_sonar} {map_by_sight hear_beacon} "
+            "{map_by_sonar see_ground} {see_ground hear_beacon}");
+  EXPECT_EQ(cut_sets(catalog, "SAMPLE", 2), "{}") << "it fits nowhere";
+}
+
+/// The vehicle does not dive deep where it sees nothing, nor stay up where it does.
+TEST(CutSets, DoNotCountSituationsThatNeverOccur) {
+  const CompiledCatalog catalog = compile_text(vehicle);
+  const std::vector<SituationPart> never{{{{0, 1}, {1, 1}}, {}}, {{{0, 0}, {1, 0}}, {}}};
+  CutSetOptions options;
+  options.order = 2;
+  const SituationSpace situations(catalog, {}, never);
+  EXPECT_EQ(show_sets(catalog, find_cut_sets(situations, task_id(catalog, "MAP"), options)),
+            "{map_by_sonar} {hear_beacon}")
+      << "in clear water it is too deep to see the ground";
+  options.in_some_situation = true;
+  const CutSets some = find_cut_sets(situations, task_id(catalog, "MAP"), options);
+  const std::vector<CutSet> expected{
+      {{}, {{0, 0}}},
+      {{}, {{1, 1}}},
+      {{BehaviorId(1)}, {}},
+      {{BehaviorId(3)}, {}},
+  };
+  EXPECT_EQ(some.sets, expected);
+}
+
+/// Each pair of a hundred variables excludes one another but for one value: no situation is left.
+TEST(SituationSpace, DecidesManyExclusions) {
+  std::string text = "situation:\n";
+  for (int i = 0; i < 100; ++i) text += fmt::format("- {{variable: V{}}}\n", i);
+  const CompiledCatalog catalog = compile_text(text + "behaviors: [{behavior: b, task: T}]\n");
+  std::vector<SituationPart> never;
+  for (std::uint32_t i = 0; i + 1 < 100; ++i) {
+    never.push_back({{{i, 0}, {i + 1, 0}}, {}});
+    never.push_back({{{i, 1}, {i + 1, 1}}, {}});
+  }
+  const SituationSpace alternating(catalog, {}, never);
+  const auto found = alternating.find(alternating.all());
+  ASSERT_TRUE(found);
+  for (std::size_t i = 0; i + 1 < 100; ++i) EXPECT_NE((*found)[i], (*found)[i + 1]);
+  never.push_back({{{0, 0}, {99, 1}}, {}});
+  never.push_back({{{0, 1}, {99, 0}}, {}});
+  const SituationSpace none_left(catalog, {}, never);
+  EXPECT_FALSE(none_left.find(none_left.all()));
 }
 
 }  // namespace

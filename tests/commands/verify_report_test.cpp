@@ -39,8 +39,7 @@ VerifyResult cut_sets_after(int steps) {
   options.on_progress = [&steps](const CutSetProgress& /*progress*/) { return steps-- > 0; };
   const TaskId land = result.catalog->task_ids[0];
   result.cut_sets.push_back(
-      {land, options.order,
-       find_cut_sets(*result.catalog, land, ruled_out_by(*result.catalog, {}), options)});
+      {land, options.order, find_cut_sets(SituationSpace(*result.catalog, {}, {}), land, options)});
   return result;
 }
 

@@ -218,7 +218,17 @@ class Relations {
                "the cut sets are not ordered by size, up to their order");
         size = set.size();
       }
+      if (of_task.contains("in_some_situation")) check_some_situations(of_task);
     }
+  }
+
+  /// The sets that suffice under no values are those that suffice in every situation.
+  void check_some_situations(const Json& of_task) {
+    Json in_every = Json::array();
+    for (const Json& set : of_task.at("in_some_situation")) {
+      if (set.at("situation").empty()) in_every.push_back(set.at("behaviors"));
+    }
+    expect(in_every == of_task.at("sets"), "the sets without values are not those of 'sets'");
   }
 
   void check_comparison(const Json& comparison) {

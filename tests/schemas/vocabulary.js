@@ -109,6 +109,7 @@ function isOptional(object, name) {
     'best',
     'complete_order',
     'due',
+    'in_some_situation',
     'incomplete',
     'parameters',
     'priority',

@@ -1,15 +1,22 @@
 // The hitting set tree of R. Reiter, "A theory of diagnosis from first principles", Artificial
-// Intelligence 32 (1987), breadth first. A support is the set of active behaviors of an assignment
-// that runs the task; a cut set hits every support. A node is a set; if it misses some support, its
-// children add one behavior of that support each. So each minimal cut set is reached from its
-// subsets. Nodes of one size are examined together: a cut set that has none of the smaller ones in
-// it is minimal. (The rule that R. Greiner, B. A. Smith and R. W. Wilkerson corrected in volume 41
-// (1989), which removes branches once a smaller support appears, is not used.)
+// Intelligence 32 (1987), breadth first. A support is an assignment that runs the task, by its
+// active behaviors, with a situation in which they fit. A cut set hits every support: it has one of
+// the behaviors, or a value that a variable does not have there. A node is a set of such items; if
+// it misses some support, its children add one item each that hits it. So each minimal cut set is
+// reached from its subsets. Nodes of one size are examined together: a cut set that has none of the
+// smaller ones in it is minimal. (The rule that R. Greiner, B. A. Smith and R. W. Wilkerson
+// corrected in volume 41 (1989), which removes branches once a smaller support appears, is not
+// used.) Where only sets count that suffice in every situation, no node has values.
 //
-// To test all sets of up to k behaviors would take a search for each. Here only sets of behaviors
-// from supports are looked at, and a search is needed only where a set hits all supports that are
+// To test all sets of up to k behaviors would take a search for each. Here only sets of items that
+// hit supports are looked at, and a search is needed only where a set hits all supports that are
 // known. Fault trees get their cut sets from a formula of what fails by what; here there is none,
 // as a task may run in more ways than anybody could write down.
+//
+// A search does not go through the situations, of which there may be too many. It looks for an
+// assignment whose behaviors may fit, each by itself. If they fit in no common situation, the
+// situations are split in two by the condition of one of these behaviors, and each part is
+// searched.
 
 #include "verify/engine/cut_sets.h"
 
@@ -17,124 +24,131 @@
 #include <bit>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
+#include <tuple>
 #include <utility>
-
-#include "runtime/solver/problem.h"
-#include "runtime/solver/solver.h"
 
 namespace cbc {
 namespace {
 
+/// What may be part of a cut set: a behavior, by its number, or a value of a situation variable, by
+/// its place among all values after the number of the last behavior.
+using Item = Id<struct KindOfItem>;
 /// Ascending.
-using BehaviorSet = std::vector<BehaviorId>;
+using ItemSet = std::vector<Item>;
 
-/// Finds assignments that run a task.
+/// Finds assignments that run a task with behaviors that fit in one situation.
 class SupportSearch {
  public:
-  SupportSearch(const CompiledCatalog& catalog, TaskId task, const std::vector<bool>& ruled_out)
-      : catalog_(catalog), first_task_(catalog.group_tasks[catalog.tasks[task].group]) {
-    problem_.group = catalog.tasks[task].group;
-    const TaskId end = catalog.group_tasks[problem_.group + 1];
-    problem_.domains.assign(catalog.words[end] - catalog.words[first_task_], 0);
-    problem_.may_stop.assign(end - first_task_, 1);
-    problem_.may_stop[task - first_task_] = 0;
-    problem_.present.assign(end - first_task_, none);
-    for (ValueId value(catalog.values.begin[first_task_]); value < catalog.values.begin[end];
-         ++value) {
-      if (!ruled_out[catalog.values.items[value].behavior]) flip(value);
+  SupportSearch(const SituationSpace& situations, TaskId task)
+      : situations_(situations), search_(situations.catalog(), task, TaskSearch::Wanted::any) {
+    const CompiledCatalog& catalog = situations.catalog();
+    unavailable_.assign(catalog.behaviors.size(), false);
+    const GroupId group = catalog.tasks[task].group;
+    for (BehaviorId id = catalog.group_behaviors[group]; id < catalog.group_behaviors[group + 1];
+         ++id) {
+      unavailable_[id] = !situations.is_available(id);
+      if (!catalog.fitting_values_of(id).empty()) conditional_.push_back(id);
     }
-    full_domains_ = problem_.domains;
-    set_budget(first_budget);
   }
 
-  enum class Answer : std::uint8_t { found, impossible, stopped };
+  using Answer = TaskSearch::Answer;
 
-  /// Looks for an assignment without the behaviors of a set. `keep_on` is asked now and then.
-  [[nodiscard]] Answer find_without(const BehaviorSet& absent,
+  /// Looks for one without the behaviors of a set, in a situation of the sets. `keep_on` is asked
+  /// now and then.
+  [[nodiscard]] Answer find_without(const BehaviorSet& absent, const ValueSets& sets,
                                     const std::function<bool()>& keep_on) {
-    problem_.domains = full_domains_;
-    for (const BehaviorId behavior : absent) {
-      for (const ValueId value : catalog_.performs[behavior]) flip(value);
+    if (!situations_.find(sets)) return Answer::impossible;
+    rule_out(absent, sets);
+    const Answer answer = search_.find_without(ruled_out_, keep_on);
+    if (answer != Answer::found) return answer;
+    active_ = search_.active();
+    ValueSets fitting = sets;
+    for (const BehaviorId behavior : active_) situations_.restrict(behavior, fitting);
+    if (auto situation = situations_.find(fitting)) {
+      situation_ = std::move(*situation);
+      return Answer::found;
     }
-    for (;;) {
-      if (!keep_on()) return Answer::stopped;
-      const SearchResult result = solver_->solve(problem_, assignment_);
-      if (has_solution(result.status)) return Answer::found;
-      if (result.status == SearchStatus::infeasible) return Answer::impossible;
-      set_budget(2 * budget_);
-    }
+    auto [inside, outside] = split(sets, fitting);
+    const Answer first = find_without(absent, inside, keep_on);
+    return first != Answer::impossible ? first : find_without(absent, outside, keep_on);
   }
 
-  /// The active behaviors of the assignment that was found. A solution runs only what the task
-  /// needs (solver/domains.h), so none of them is there in vain.
-  [[nodiscard]] BehaviorSet support() const {
-    BehaviorSet active;
-    for (LocalTask task(0); task < assignment_.size(); ++task) {
-      if (assignment_[task] == none) continue;
-      active.push_back(catalog_.values[first_task_ + task][assignment_[task]].behavior);
-    }
-    std::sort(active.begin(), active.end());
-    active.erase(std::unique(active.begin(), active.end()), active.end());
-    return active;
-  }
+  // Of the assignment that was found:
+  [[nodiscard]] const BehaviorSet& active() const { return active_; }
+  [[nodiscard]] const VariableValues& situation() const { return situation_; }
 
  private:
-  static constexpr std::uint64_t first_budget = 10'000;
-
-  /// A hard search begins anew with twice the decisions, which at most triples the effort, so that
-  /// it can be stopped in between.
-  void set_budget(std::uint64_t nodes) {
-    budget_ = nodes;
-    SearchOptions options;
-    options.any_solution = true;
-    options.max_nodes = nodes;
-    options.easy_nodes = UINT64_MAX;  // bounds are about the objective, which does not matter here
-    solver_.emplace(catalog_, options, no_ranks_);
+  void rule_out(const BehaviorSet& absent, const ValueSets& sets) {
+    ruled_out_ = unavailable_;
+    for (const BehaviorId behavior : conditional_) {
+      if (!situations_.may_fit(behavior, sets)) ruled_out_[behavior] = true;
+    }
+    for (const BehaviorId behavior : absent) ruled_out_[behavior] = true;
   }
 
-  void flip(ValueId value) {
-    const TaskId task = catalog_.task_of(value);
-    const std::uint32_t place = value - catalog_.values.begin[task];
-    const std::uint32_t word = catalog_.words[task] - catalog_.words[first_task_] + place / 64;
-    problem_.domains[word] ^= std::uint64_t{1} << (place % 64);
+  /// The values of the sets with which an active behavior fits, as far as one variable goes, and
+  /// the others. `fitting`: those with which all active behaviors fit. A variable that has none of
+  /// these is what the behaviors disagree about, so it is taken first.
+  [[nodiscard]] std::pair<ValueSets, ValueSets> split(const ValueSets& sets,
+                                                      const ValueSets& fitting) const {
+    const CompiledCatalog& catalog = situations_.catalog();
+    std::pair<ValueSets, ValueSets> halves{sets, sets};
+    for (const bool only_disputed : {true, false}) {
+      for (const BehaviorId behavior : active_) {
+        ValueSets of_one = sets;
+        situations_.restrict(behavior, of_one);
+        for (const CompiledVariable& variable : catalog.variables) {
+          const auto begin = variable.first_value;
+          const auto end = begin + variable.value_count;
+          const auto is_same = [&](const ValueSets& a, const ValueSets& b) {
+            return std::equal(a.begin() + begin, a.begin() + end, b.begin() + begin);
+          };
+          const bool is_disputed =
+              std::find(fitting.begin() + begin, fitting.begin() + end, 1) == fitting.begin() + end;
+          if (is_same(of_one, sets) || (only_disputed && !is_disputed)) continue;
+          for (std::uint32_t value = begin; value < end; ++value) {
+            halves.first[value] = of_one[value];
+            halves.second[value] = sets[value] != 0 && of_one[value] == 0 ? 1 : 0;
+          }
+          return halves;
+        }
+      }
+    }
+    return halves;
   }
 
-  const CompiledCatalog& catalog_;
-  const TaskId first_task_;
-  const std::vector<std::uint32_t> no_ranks_;
-  Problem problem_;
-  std::vector<std::uint64_t> full_domains_;
-  std::uint64_t budget_ = 0;
-  std::optional<Solver> solver_;
-  Assignment assignment_;
+  const SituationSpace& situations_;
+  TaskSearch search_;
+  std::vector<bool> unavailable_;  ///< by BehaviorId: in every situation
+  BehaviorSet conditional_;        ///< behaviors that fit in some situations only
+  std::vector<bool> ruled_out_;    ///< by BehaviorId
+  BehaviorSet active_;
+  VariableValues situation_;
 };
 
-/// The supports (sets of active behaviors) of the assignments that are known.
+/// The supports that are known: of each the items that hit it.
 class KnownSupports {
  public:
-  KnownSupports(const CompiledCatalog& catalog, GroupId group)
-      : first_(catalog.group_behaviors[group]),
-        users_(catalog.group_behaviors[group + 1] - first_) {}
-
-  const BehaviorSet& add(BehaviorSet support) {
+  const ItemSet& add(ItemSet items) {
     const std::size_t number = supports_.size();
-    for (const BehaviorId behavior : support) {
-      std::vector<std::uint64_t>& users = users_[behavior - first_];
+    for (const Item item : items) {
+      std::vector<std::uint64_t>& users = users_[item];
       users.resize(number / 64 + 1);
       users.back() |= std::uint64_t{1} << (number % 64);
     }
-    return supports_.emplace_back(std::move(support));
+    return supports_.emplace_back(std::move(items));
   }
 
   /// One that has nothing of a set, or null.
-  [[nodiscard]] const BehaviorSet* find_without(const BehaviorSet& absent) const {
+  [[nodiscard]] const ItemSet* find_without(const ItemSet& set) const {
     for (std::size_t word = 0; word * 64 < supports_.size(); ++word) {
       std::uint64_t hit = 0;
-      for (const BehaviorId behavior : absent) {
-        const std::vector<std::uint64_t>& users = users_[behavior - first_];
-        if (word < users.size()) hit |= users[word];
+      for (const Item item : set) {
+        const auto users = users_.find(item);
+        if (users != users_.end() && word < users->second.size()) hit |= users->second[word];
       }
       const std::size_t number = word * 64 + static_cast<std::size_t>(std::countr_one(hit));
       if (hit != UINT64_MAX && number < supports_.size()) return &supports_[number];
@@ -143,48 +157,55 @@ class KnownSupports {
   }
 
  private:
-  BehaviorId first_;
-  std::vector<BehaviorSet> supports_;
-  std::vector<std::vector<std::uint64_t>> users_;  ///< by behavior of the group: bits of supports_
+  std::vector<ItemSet> supports_;
+  std::map<Item, std::vector<std::uint64_t>> users_;  ///< bits of supports_
 };
 
 /// Grows the tree level by level, and collects the cut sets.
 class HittingSetTree {
  public:
-  HittingSetTree(const CompiledCatalog& catalog, TaskId task, const std::vector<bool>& ruled_out,
-                 const CutSetOptions& options)
-      : options_(options),
-        search_(catalog, task, ruled_out),
-        known_(catalog, catalog.tasks[task].group) {}
+  HittingSetTree(const SituationSpace& situations, TaskId task, const CutSetOptions& options)
+      : situations_(situations),
+        catalog_(situations.catalog()),
+        options_(options),
+        first_value_(static_cast<std::uint32_t>(catalog_.behaviors.size())),
+        search_(situations, task) {}
 
   CutSets grow() {
-    std::set<BehaviorSet> level{{}};  // in catalog order, as BehaviorIds of a group are
-    for (std::uint32_t size = 0; size <= options_.order && !level.empty(); ++size) {
+    std::set<ItemSet> level{{}};  // in catalog order, as BehaviorIds of a group are
+    for (std::uint32_t size = 0; !level.empty(); ++size) {
       progress_.size = size;
-      std::set<BehaviorSet> next;
-      for (const BehaviorSet& node : level) {
+      std::set<ItemSet> next;
+      for (const ItemSet& node : level) {
         if (!examine(node, next)) {
           result_.incomplete_size = size;
-          return std::move(result_);
+          return finish();
         }
       }
       level = std::move(next);
     }
     result_.complete = true;
-    return std::move(result_);
+    return finish();
   }
 
  private:
+  [[nodiscard]] bool is_behavior(Item item) const { return item < first_value_; }
+  [[nodiscard]] std::size_t count_behaviors(const ItemSet& node) const {
+    return static_cast<std::size_t>(
+        std::count_if(node.begin(), node.end(), [this](Item item) { return is_behavior(item); }));
+  }
+
   /// False if the search is stopped.
-  [[nodiscard]] bool examine(const BehaviorSet& node, std::set<BehaviorSet>& children) {
+  [[nodiscard]] bool examine(const ItemSet& node, std::set<ItemSet>& children) {
     ++progress_.examined;
-    const BehaviorSet* support = known_.find_without(node);
+    const ItemSet* support = known_.find_without(node);
     if (support == nullptr) {
       if (has_cut_set(node)) return true;
       ++result_.searches;
-      switch (search_.find_without(node, [this] { return keeps_on(); })) {
+      const CutSet set = cut_set_of(node);
+      switch (search_.find_without(set.behaviors, sets_of(set), [this] { return keeps_on(); })) {
         case SupportSearch::Answer::found:
-          support = &known_.add(search_.support());
+          support = &known_.add(items_of_support());
           break;
         case SupportSearch::Answer::impossible:
           add_cut_set(node);
@@ -193,82 +214,127 @@ class HittingSetTree {
           return false;
       }
     }
-    if (node.size() < options_.order) {
-      for (const BehaviorId behavior : *support) {
-        BehaviorSet child = node;
-        child.insert(std::lower_bound(child.begin(), child.end(), behavior), behavior);
-        children.insert(std::move(child));
-      }
+    const bool takes_behaviors = count_behaviors(node) < options_.order;
+    for (const Item item : *support) {
+      if (is_behavior(item) ? !takes_behaviors : !takes_value(node, item)) continue;
+      ItemSet child = node;
+      child.insert(std::lower_bound(child.begin(), child.end(), item), item);
+      children.insert(std::move(child));
     }
     return true;
+  }
+
+  /// Whether there is a situation with a value and those of the node.
+  [[nodiscard]] bool takes_value(const ItemSet& node, Item item) const {
+    ValueSets sets = sets_of(cut_set_of(node));
+    situations_.restrict(value_of(item), sets);
+    return situations_.find(std::move(sets)).has_value();
+  }
+
+  /// What hits the support that was found: each of its behaviors; and if values count, each that
+  /// its situation does not have, of the variables that matter to these behaviors.
+  [[nodiscard]] ItemSet items_of_support() const {
+    ItemSet items;
+    for (const BehaviorId behavior : search_.active()) items.emplace_back(std::uint32_t{behavior});
+    if (!options_.in_some_situation) return items;
+    for (const std::uint32_t variable : situations_.variables_of(search_.active())) {
+      const CompiledVariable& of = catalog_.variables[variable];
+      for (std::uint32_t value = 0; value < of.value_count; ++value) {
+        if (value == search_.situation()[variable]) continue;
+        items.emplace_back(first_value_ + of.first_value + value);
+      }
+    }
+    return items;
+  }
+
+  [[nodiscard]] VariableValue value_of(Item item) const {
+    const std::uint32_t place = std::uint32_t{item} - first_value_;
+    std::uint32_t variable = 0;
+    while (place >=
+           catalog_.variables[variable].first_value + catalog_.variables[variable].value_count) {
+      ++variable;
+    }
+    return {variable, place - catalog_.variables[variable].first_value};
+  }
+
+  [[nodiscard]] CutSet cut_set_of(const ItemSet& node) const {
+    CutSet set;
+    for (const Item item : node) {
+      if (is_behavior(item)) {
+        set.behaviors.emplace_back(std::uint32_t{item});
+      } else {
+        set.values.push_back(value_of(item));
+      }
+    }
+    return set;
+  }
+
+  [[nodiscard]] ValueSets sets_of(const CutSet& set) const {
+    ValueSets sets = situations_.all();
+    for (const VariableValue& value : set.values) situations_.restrict(value, sets);
+    return sets;
   }
 
   [[nodiscard]] bool keeps_on() const {
     return !options_.on_progress || options_.on_progress(progress_);
   }
 
-  void add_cut_set(const BehaviorSet& node) {
+  void add_cut_set(const ItemSet& node) {
     ++progress_.found;
-    if (!node.empty()) by_first_[node.front()].push_back(result_.sets.size());
-    result_.sets.push_back(node);
+    if (!node.empty()) by_first_[node.front()].push_back(found_.size());
+    found_.push_back(node);
   }
 
   /// Whether a known cut set is part of the node.
-  [[nodiscard]] bool has_cut_set(const BehaviorSet& node) const {
+  [[nodiscard]] bool has_cut_set(const ItemSet& node) const {
     for (auto first = node.begin(); first != node.end(); ++first) {
-      const auto found = by_first_.find(*first);
-      if (found == by_first_.end()) continue;
-      for (const std::size_t place : found->second) {
-        const BehaviorSet& cut_set = result_.sets[place];
+      const auto known = by_first_.find(*first);
+      if (known == by_first_.end()) continue;
+      for (const std::size_t place : known->second) {
+        const ItemSet& cut_set = found_[place];
         if (std::includes(first, node.end(), cut_set.begin(), cut_set.end())) return true;
       }
     }
     return false;
   }
 
+  CutSets finish() {
+    for (const ItemSet& node : found_) result_.sets.push_back(cut_set_of(node));
+    const auto key_of = [](const CutSet& set) {
+      std::vector<std::pair<std::uint32_t, std::uint32_t>> values;
+      for (const VariableValue& value : set.values)
+        values.emplace_back(value.variable, value.value);
+      return std::tuple(set.behaviors.size(), set.behaviors, std::move(values));
+    };
+    std::sort(result_.sets.begin(), result_.sets.end(),
+              [&](const CutSet& a, const CutSet& b) { return key_of(a) < key_of(b); });
+    return std::move(result_);
+  }
+
+  const SituationSpace& situations_;
+  const CompiledCatalog& catalog_;
   const CutSetOptions& options_;
+  const std::uint32_t first_value_;  ///< the first item that is a value
   SupportSearch search_;
   KnownSupports known_;
-  std::map<BehaviorId, std::vector<std::size_t>> by_first_;  ///< places of cut sets in result_
+  std::vector<ItemSet> found_;
+  std::map<Item, std::vector<std::size_t>> by_first_;  ///< places of cut sets in found_
   CutSetProgress progress_;
   CutSets result_;
 };
 
-/// Whether a behavior fits in every respect that is fixed. `fixed`: by variable, its value or none.
-bool may_fit(const CompiledCatalog& catalog, BehaviorId behavior,
-             std::span<const std::uint32_t> fixed) {
-  const auto all = catalog.fitting_values_of(behavior);
-  for (auto next = all.begin(); next != all.end();) {
-    const std::uint32_t variable = next->variable;
-    bool fits = fixed[variable] == none;
-    for (; next != all.end() && next->variable == variable; ++next) {
-      fits |= next->value == fixed[variable];
-    }
-    if (!fits) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
-std::vector<bool> ruled_out_by(const CompiledCatalog& catalog,
-                               const std::optional<SituationPart>& situation) {
-  std::vector<bool> out(catalog.behaviors.size(), false);
-  if (!situation) return out;
-  std::vector<std::uint32_t> fixed(catalog.variables.size(), none);
-  for (const VariableValue& one : situation->variables) fixed[one.variable] = one.value;
-  for (BehaviorId behavior(0); behavior < out.size(); ++behavior) {
-    out[behavior] = !may_fit(catalog, behavior, fixed);
+std::vector<BehaviorSet> CutSets::in_every_situation() const {
+  std::vector<BehaviorSet> found;
+  for (const CutSet& set : sets) {
+    if (set.values.empty()) found.push_back(set.behaviors);
   }
-  for (const SituationPart::Own& own : situation->behaviors) {
-    if (!own.available) out[own.behavior] = true;
-  }
-  return out;
+  return found;
 }
 
-CutSets find_cut_sets(const CompiledCatalog& catalog, TaskId task,
-                      const std::vector<bool>& ruled_out, const CutSetOptions& options) {
-  return HittingSetTree(catalog, task, ruled_out, options).grow();
+CutSets find_cut_sets(const SituationSpace& situations, TaskId task, const CutSetOptions& options) {
+  return HittingSetTree(situations, task, options).grow();
 }
 
 }  // namespace cbc

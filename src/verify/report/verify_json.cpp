@@ -341,6 +341,20 @@ constexpr auto comparison =
        "else": {"properties": {"length": {"type": "null"}, "script": {"type": "null"},
                                "direct": {"type": "array", "maxItems": 0}}}}])");
 
+constexpr auto situated_cut_set = object(
+    "situated_cut_set", "",
+    member("behaviors", behaviors, "In catalog order; none: no fault is needed.",
+           &CutSet::behaviors),
+    member("situation", situation,
+           "The values of situation variables under which it suffices; none: in every situation.",
+           [](const CutSet& of, const CompiledCatalog& catalog) {
+             return [&](const auto& put) {
+               for (const VariableValue& value : of.values) {
+                 put(catalog.name_of_variable(value.variable), value);
+               }
+             };
+           }));
+
 constexpr auto cut_sets = object(
     "cut_sets", "", member("task", task, "", &TaskCutSets::task),
     member("order", integer(1), "The largest size of a set (--order).", &TaskCutSets::order),
@@ -355,11 +369,17 @@ constexpr auto cut_sets = object(
           return std::optional<Order>(std::in_place,
                                       incomplete > 0 ? Order(incomplete - 1) : Order());
         }),
-    member(
-        "sets", list(behaviors).unique(),
-        "The minimal sets of behaviors whose faults together make the task impossible, by size, "
-        "then in catalog order. One empty set: it cannot run even without a fault.",
-        [](const TaskCutSets& of) -> const auto& { return of.found.sets; }));
+    member("sets", list(behaviors).unique(),
+           "The minimal sets of behaviors whose faults together make the task impossible in every "
+           "situation, by size, then in catalog order. One empty set: it cannot run even without "
+           "a fault.",
+           [](const TaskCutSets& of) { return of.found.in_every_situation(); }),
+    optional(
+        "in_some_situation", list(situated_cut_set).on_lines(),
+        "Only with --in-some-situation: the sets that suffice under some values of situation "
+        "variables, those of `sets` included, by size, then in catalog order, then by the "
+        "values. Of none of them a part suffices under the same values or fewer.",
+        [](const TaskCutSets& of) { return of.in_some_situation ? &of.found.sets : nullptr; }));
 
 constexpr auto report = object(
     "",

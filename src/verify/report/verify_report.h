@@ -11,6 +11,7 @@
 
 #include "core/diagnostic/diagnostic.h"
 #include "core/property/properties.h"
+#include "core/report/layout.h"
 #include "core/script/runner.h"
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
@@ -64,6 +65,7 @@ struct TaskCutSets {
   TaskId task;
   std::uint32_t order = 1;
   CutSets found;
+  bool in_some_situation = false;  ///< see CutSetOptions
 };
 
 /// An event that two catalogs decide differently, and its script, run on both.
@@ -91,6 +93,9 @@ struct VerifyResult {
   std::vector<TaskCutSets> single_faults;
   std::vector<TaskCutSets> cut_sets;
   bool wants_cut_sets = false;
+  /// What is given of the situation of all cut sets, and the situations that do not occur.
+  SituationPart situation;
+  std::vector<SituationPart> never;
   std::optional<ReportedComparison> same_as;
   ExplorationLimits limits;
 
@@ -116,6 +121,10 @@ struct VerifyResult {
 
 /// What ended a comparison.
 [[nodiscard]] std::string describe_comparison_end(const VerifyResult& result, ExplorationEnd end);
+
+/// Adds the cut sets of a task; the behaviors without which a task cannot run.
+void add_cut_sets(const VerifyResult& result, const TaskCutSets& of_task, Text& text);
+void add_single_faults(const VerifyResult& result, Text& text);
 
 /// The result for people.
 [[nodiscard]] std::string verify_to_text(const VerifyResult& result, const Style& style);

@@ -147,7 +147,7 @@ class GroupText {
           "can assume others (assume: {start: {TASK: 1}})\n");
     }
     for (const Exploration& exploration : part_.verification.explorations) add_group(exploration);
-    if (!result_.single_faults.empty()) add_single_faults();
+    if (!result_.single_faults.empty()) add_single_faults(result_, text_);
   }
 
  private:
@@ -263,21 +263,6 @@ class GroupText {
         }));
   }
 
-  void add_single_faults() {
-    text_.title("behaviors without which a task cannot run");
-    Table table(text_.style(), {{}, {}}, {.columns = text_width, .breaks = Breaks::after_commas});
-    for (const TaskCutSets& sets : result_.single_faults) {
-      std::vector<std::string> names;
-      for (const std::vector<BehaviorId>& set : sets.found.sets) {
-        names.push_back(set.empty() ? std::string("it can never run")
-                                    : printable(catalog_.name_of_behavior(set.front())));
-      }
-      if (names.empty()) names.emplace_back(sets.found.complete ? "none" : "none found so far");
-      table.add({printable(catalog_.name_of_task(sets.task)), join(names, ", ")});
-    }
-    text_.add(table.text());
-  }
-
   void add_row(const std::string& label, const std::vector<std::string>& items) {
     if (items.empty()) return;
     const Table table(text_.style(), row_columns(),
@@ -377,37 +362,6 @@ void add_properties(const VerifyResult& result, const VerifyPart& part, Text& te
     text.line(text.style().paint(text.style().warning, title) + ": " +
               describe_limit(result, exploration));
   }
-}
-
-void add_cut_sets(const CompiledCatalog& catalog, const TaskCutSets& of_task, Text& text) {
-  const CutSets& found = of_task.found;
-  text.title(fmt::format("minimal sets of at most {} whose faults together end {}",
-                         quantity(of_task.order, "behavior"),
-                         printable(catalog.name_of_task(of_task.task))));
-  Table table(text.style(), {{}}, {.columns = text_width, .breaks = Breaks::after_commas});
-  for (const std::vector<BehaviorId>& set : found.sets) {
-    table.add({set.empty() ? "none is needed: it cannot run even without a fault"
-                           : join(names_of_behaviors(catalog, set), ", ")});
-  }
-  text.add(table.text());
-  if (found.sets.empty()) text.line(found.complete ? "  none" : "  none found so far");
-  const std::size_t count = found.sets.size();
-  // A behavior that requires nothing is a part of the robot, as a sensor is.
-  const auto requires_nothing = [&](const std::vector<BehaviorId>& set) {
-    return std::all_of(set.begin(), set.end(),
-                       [&](BehaviorId behavior) { return catalog.behaviors[behavior].level == 0; });
-  };
-  if (count > 1) {
-    text.line("  {}, {} of them of behaviors that require nothing", quantity(count, "set"),
-              std::count_if(found.sets.begin(), found.sets.end(), requires_nothing));
-  }
-  if (found.complete) return;
-  const std::uint32_t size = found.incomplete_size;
-  text.painted(text.style().warning,
-               size == 0 ? "  a limit ended the search at its beginning"
-                         : fmt::format("  a limit ended the search: all sets of fewer than {} are "
-                                       "there",
-                                       quantity(size, "behavior")));
 }
 
 /// What was found out about the events of two catalogs.
@@ -551,7 +505,7 @@ std::string verify_to_text(const VerifyResult& result, const Style& style) {
     text.painted(style.strong, printable(result.catalog->file));
   }
   if (result.same_as) add_comparison(result, text);
-  for (const TaskCutSets& of_task : result.cut_sets) add_cut_sets(*result.catalog, of_task, text);
+  for (const TaskCutSets& of_task : result.cut_sets) add_cut_sets(result, of_task, text);
   add_totals(result, text);
   return text.take();
 }

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/property/properties.h"
+#include "runtime/compiled/compiled_catalog.h"
+
+// Which situations count where a question is about more than one, and whether some behaviors fit in
+// a common one.
+
+namespace cbc {
+
+/// Some situations: of each situation variable the values that it may have, independently of the
+/// others. A flag (0 or 1) for each value, by its place in CompiledCatalog::variable_values.
+using ValueSets = std::vector<std::uint8_t>;
+
+/// The value of each situation variable.
+using VariableValues = std::vector<std::uint32_t>;
+
+/// The situations that agree with what is given of one, and that no entry of `never` excludes.
+/// Answers of check_situation (own(b)) that are not given are true.
+class SituationSpace {
+ public:
+  /// `given`: its variables have these values. `never`: in an entry, values of one variable are
+  /// alternatives. The catalog must outlive this object.
+  SituationSpace(const CompiledCatalog& catalog, const SituationPart& given,
+                 std::span<const SituationPart> never);
+
+  [[nodiscard]] const CompiledCatalog& catalog() const { return catalog_; }
+
+  /// All values that the given part leaves, those that `never` excludes included.
+  [[nodiscard]] const ValueSets& all() const { return all_; }
+  /// Whether own(b) is true.
+  [[nodiscard]] bool is_available(BehaviorId behavior) const { return denied_[behavior] == 0; }
+  /// Whether the given part leaves a variable more than one value.
+  [[nodiscard]] bool is_free(std::uint32_t variable) const { return is_free_[variable] != 0; }
+
+  /// Takes the values out of the sets in which a behavior does not fit.
+  void restrict(BehaviorId behavior, ValueSets& sets) const;
+  /// Leaves a variable only one value.
+  void restrict(VariableValue value, ValueSets& sets) const;
+  /// Whether a behavior fits in some, in every one of the situations, be they excluded or not.
+  [[nodiscard]] bool may_fit(BehaviorId behavior, const ValueSets& sets) const;
+  [[nodiscard]] bool always_fits(BehaviorId behavior, const ValueSets& sets) const;
+
+  /// One of the situations that is not excluded, or nothing if there is none.
+  [[nodiscard]] std::optional<VariableValues> find(ValueSets sets) const;
+
+  /// The variables that behaviors name, and those that `never` ties to them, directly or through
+  /// others; ascending. Those that have only one value are left out. What other variables may be
+  /// does not depend on whether the behaviors fit.
+  [[nodiscard]] std::vector<std::uint32_t> variables_of(
+      std::span<const BehaviorId> behaviors) const;
+
+ private:
+  /// A variable, and the values of it that are part of an entry of `never`.
+  struct Literal {
+    std::uint32_t variable = 0;
+    std::vector<std::uint32_t> values;  ///< ascending
+  };
+  using Entry = std::vector<Literal>;
+
+  void add_never(const SituationPart& part);
+  [[nodiscard]] std::uint32_t first_value(std::uint32_t variable) const {
+    return catalog_.variables[variable].first_value;
+  }
+  [[nodiscard]] std::uint32_t tie_of(std::uint32_t variable) const;
+  [[nodiscard]] bool choose(const ValueSets& sets, VariableValues& values) const;
+  [[nodiscard]] const Entry* find_violated(const VariableValues& values) const;
+
+  const CompiledCatalog& catalog_;
+  ValueSets all_;
+  std::vector<std::uint8_t> denied_;   ///< by behavior
+  std::vector<std::uint8_t> is_free_;  ///< by variable
+  std::vector<Entry> never_;           ///< that are not decided by the given part
+  std::vector<std::uint32_t> ties_;    ///< by variable: another one of its class, or itself
+};
+
+}  // namespace cbc
