@@ -22,11 +22,14 @@ struct VerifyOptions {
   std::vector<std::string> renamed;  ///< OLD=NEW
   bool allow_missing = false;
   StateLimits limits;
-  std::vector<std::string> cut_sets;  ///< names of tasks
-  std::vector<std::string> refused;   ///< names of tasks
-  std::uint32_t order = 2;
+  std::vector<std::string> cut_sets;   ///< names of tasks
+  std::vector<std::string> refused;    ///< names of tasks
+  std::optional<std::uint32_t> order;  ///< default: 2 of cut sets, 1 of effects
   bool in_some_situation = false;
   std::vector<std::string> situation;  ///< KEY=VALUE
+  bool effects = false;
+  bool situations = false;
+  std::optional<std::string> fail_on;  ///< "lost", "degraded:60"
 };
 
 /// Answers what the command line asks, and writes the report. Returns the exit status.

@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "core/command_line/command_line.h"
 #include "core/files/output.h"
+#include "runtime/base/text.h"
 #include "verify/report/verify_report.h"
 #include "verify/verify.h"
 
@@ -17,17 +18,32 @@ Values situation_entry() {
                        "GPS_SIGNAL=false");
 }
 
+/// An effect, and how much of the suitability has to be left.
+Values effect_limit() {
+  Values values;
+  values.placeholder = "EFFECT";
+  values.expected = "lost or degraded:PERCENT";
+  values.check = [](const std::string& text) -> std::string {
+    constexpr std::string_view degraded = "degraded:";
+    const bool is_right = text == "lost" || (text.starts_with(degraded) &&
+                                             percent().check(text.substr(degraded.size())).empty());
+    if (is_right) return {};
+    return "expected 'lost' or a percentage such as 'degraded:60', found " + quote(text);
+  };
+  return values;
+}
+
 constexpr const char* verify_examples =
     "  cbc verify robot.yaml                     what can happen at all\n"
     "  cbc verify robot.properties.yaml          prove properties, or break them\n"
     "  cbc verify new.yaml --same-as old.yaml    do both decide alike, always?\n"
-    "  cbc verify robot.yaml --cut-sets DRIVE    faults that together end DRIVE\n";
+    "  cbc verify robot.yaml --cut-sets DRIVE    faults that together end DRIVE\n"
+    "  cbc verify robot.yaml --effects           what each fault does\n";
 
 constexpr const char* verify_footer =
-    "Exit status: 0 all properties are proved, 1 one is violated or undecided, the catalogs "
-    "differ, "
-    "or a limit ended an exploration, 2 the input or the usage is wrong, 3 an internal error "
-    "(please report it).\n"
+    "Exit status: 0 all is proved, 1 a property is violated or undecided, the catalogs differ, "
+    "--fail-on is met, or a limit ended a search, 2 the input or the usage is wrong, 3 an internal "
+    "error (please report it).\n"
     "\n"
     "Read more: man cbc-verify";
 
@@ -45,13 +61,10 @@ void add_verify_command(Program& program) {
   const auto options = std::make_shared<VerifyOptions>();
   const std::vector<std::string> formats = names_in(verify_formats());
   Command& command = program.add_command(
-      "verify",
-      "Visits every reachable state of a catalog, and proves properties or shows the shortest "
-      "script that breaks them.",
+      "verify", "Visits every reachable state: proves properties, or shows how they break.",
       {{"[OPTION...] [CATALOG] [PROPERTIES...]"}, verify_examples, verify_footer});
   command.argument("CATALOG PROPERTIES", options->paths, input("...", ValueKind::catalog_or_script),
-                   "The catalog, unless the property files name it; then property files, or - for "
-                   "standard input");
+                   "Catalog, unless property files name it; property files");
   command.format_option(options->format, formats);
   command.option("-o,--output", options->output, output("OUT"),
                  "The file to write, or - for standard output (default)");
@@ -88,15 +101,24 @@ void add_verify_command(Program& program) {
       .not_with({"--format junit", "--format github"}, "it has no place for cut sets");
   command
       .option("--order", options->order, whole_number("K", 1, highest_order),
-              "At most K faults together (default: 2)")
-      .only_with({"--cut-sets"});
+              "At most K faults together (default: 2; effects: 1)")
+      .only_with({"--cut-sets", "--effects"});
   command
       .flag("--in-some-situation", options->in_some_situation,
             "Also sets that suffice in some situation")
       .only_with({"--cut-sets"});
   command
       .option("--situation", options->situation, situation_entry(), "In this situation; repeatable")
-      .only_with({"--cut-sets"});
+      .only_with({"--cut-sets", "--effects"});
+  command.flag("--effects", options->effects, "Tabulate what faults do to each task")
+      .not_with({"--cut-sets", "--refused", "--same-as", "--scripts"})
+      .only_with_values("--format", {"text", "json", "csv"});
+  command.flag("--situations", options->situations, "Also what changes of the situation do")
+      .only_with({"--effects"});
+  command
+      .option("--fail-on", options->fail_on, effect_limit(),
+              "Exit with 1 on: lost, or degraded:60 (below 60 %)")
+      .only_with({"--effects"});
 
   command.moved({"--write-tests"}, "'cbc coverage --write-missing'");
   command.moved({"--mutants"}, "'cbc coverage --mutants'");

@@ -19,6 +19,7 @@
 #include "core/files/output.h"
 #include "core/property/properties.h"
 #include "core/property/property_reader.h"
+#include "core/report/words.h"
 #include "core/support/system.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
@@ -242,6 +243,7 @@ class Call {
     explore();
     if (const std::string error = first_error(); !error.empty()) return complain(error);
     find_cut_sets();
+    if (options_.effects) find_effects();
     if (const int status = replay_scripts(); status != exit_ok) return status;
     if (const int status = compare(); status != exit_ok) return status;
     return report();
@@ -284,15 +286,19 @@ class Call {
         std::all_of(questions_.files.begin(), questions_.files.end(),
                     [](const auto& file) { return !file->properties.empty(); }) &&
         !questions_.files.empty();
-    const char* const needs_properties = format.needs_tests && !options_.same_as ? "--format"
-                                         : options_.scripts && !options_.same_as ? "--scripts"
-                                         : options_.html                         ? "--html"
-                                                                                 : nullptr;
+    const char* const needs_properties = format.needs_tests && !options_.same_as   ? "--format"
+                                         : options_.scripts && !options_.same_as   ? "--scripts"
+                                         : options_.html && !asks_only_otherwise() ? "--html"
+                                                                                   : nullptr;
     if (needs_properties != nullptr && !has_properties) {
       return usage_error("verify", "{}{}{} needs property files with properties", needs_properties,
                          format.needs_tests ? " " : "", format.needs_tests ? options_.format : "");
     }
+    if (format.needs_effects && !options_.effects) {
+      return usage_error("verify", "--format {} needs --effects", options_.format);
+    }
     const char* const takes_one_file = result_.wants_cut_sets ? "--cut-sets"
+                                       : options_.effects     ? "--effects"
                                        : options_.same_as     ? "--same-as"
                                                               : nullptr;
     if (takes_one_file != nullptr && questions_.files.size() > 1) {
@@ -317,6 +323,7 @@ class Call {
     const PropertyFile& file = *questions_.files.front();
     if (options_.situation.empty()) result_.situation = file.assumptions.initially;
     result_.never = file.assumptions.never;
+    if (asks_only_otherwise()) return check_situation(file);
     if (!options_.situation.empty() && !situations().find(situations().all())) {
       return complain(
           "--situation: expected a situation that may occur, but 'never' of {} "
@@ -326,8 +333,33 @@ class Call {
     return exit_ok;
   }
 
+  /// The situation from which effects are has to be one that occurs.
+  int check_situation(const PropertyFile& file) {
+    const SituationPart complete = complete_situation(catalog_, result_.situation);
+    const SituationSpace space(catalog_, complete, result_.never);
+    if (space.find(space.all())) return exit_ok;
+    return complain("'never' of {} excludes the situation; expected one that may occur, found {}",
+                    quote(file.path),
+                    join(complete.variables, ", ", [&](const VariableValue& value) {
+                      return describe_value(catalog_, value);
+                    }));
+  }
+
   [[nodiscard]] SituationSpace situations() const {
     return {catalog_, result_.situation, result_.never};
+  }
+
+  /// Whether property files only say what is assumed.
+  [[nodiscard]] bool asks_only_otherwise() const { return options_.effects; }
+
+  /// The tasks that the assumptions let be requested, in catalog order.
+  [[nodiscard]] std::vector<TaskId> requestable_tasks() const {
+    const Assumptions assumptions = questions_.files.empty()
+                                        ? default_assumptions(catalog_)
+                                        : questions_.files.front()->assumptions;
+    std::vector<TaskId> tasks;
+    for (const Assumptions::Start& start : assumptions.start) tasks.push_back(start.task);
+    return tasks;
   }
 
   int read_renames() {
@@ -351,6 +383,7 @@ class Call {
   }
 
   void explore() {
+    if (asks_only_otherwise()) return;
     const bool asks_otherwise = result_.wants_cut_sets || options_.same_as;
     if (questions_.files.empty() && asks_otherwise) return;
     Progress progress("exploring", count_explorations());
@@ -495,7 +528,7 @@ class Call {
   void find_cut_sets() {
     const SituationSpace in = situations();
     for (const TaskId task : cut_tasks_) {
-      result_.cut_sets.push_back(cut_sets_of(task, options_.order, in, Clock::now()));
+      result_.cut_sets.push_back(cut_sets_of(task, options_.order.value_or(2), in, Clock::now()));
     }
     const bool is_about_groups =
         std::any_of(result_.parts.begin(), result_.parts.end(),
@@ -509,15 +542,42 @@ class Call {
     }
   }
 
+  void find_effects() {
+    ReportedEffects& effects = result_.effects.emplace();
+    effects.order = options_.order.value_or(1);
+    effects.situation = complete_situation(catalog_, result_.situation);
+    if (options_.situations) {
+      effects.changes = changes_of(catalog_, effects.situation, result_.never);
+    }
+    if (options_.fail_on) effects.limit = limit_of(*options_.fail_on);
+    const std::vector<TaskId> tasks = requestable_tasks();
+    Progress progress("searching", tasks.size());
+    EffectOptions of_search{effects.order, options_.situations,
+                            [this, begin = Clock::now()] { return may_go_on(begin); }};
+    for (const TaskId task : tasks) {
+      progress.begin(std::string(catalog_.name_of_task(task)));
+      effects.tasks.push_back(
+          cbc::find_effects(catalog_, task, effects.situation, result_.never, of_search));
+    }
+  }
+
+  static EffectLimit limit_of(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos) return {text, 0};
+    return {text, static_cast<std::uint32_t>(tenths_in(text.substr(colon + 1)))};
+  }
+
+  /// `begin`: since when the time limit counts.
+  [[nodiscard]] bool may_go_on(Clock::time_point begin) const {
+    const std::chrono::duration<double> elapsed = Clock::now() - begin;
+    const double limit = result_.limits.seconds;
+    return !signals_.have_come() && (limit <= 0 || elapsed.count() < limit);
+  }
+
   /// `begin`: since when the time limit counts.
   TaskCutSets cut_sets_of(TaskId task, std::uint32_t order, const SituationSpace& in,
                           Clock::time_point begin) {
-    const auto may_go_on = [&] {
-      const std::chrono::duration<double> elapsed = Clock::now() - begin;
-      const double limit = result_.limits.seconds;
-      return !signals_.have_come() && (limit <= 0 || elapsed.count() < limit);
-    };
-    if (!may_go_on()) return {task, order, {}, options_.in_some_situation};
+    if (!may_go_on(begin)) return {task, order, {}, options_.in_some_situation};
     Progress progress("searching", 1);
     progress.begin(std::string(catalog_.name_of_task(task)));
     CutSetOptions of_search;
@@ -527,7 +587,7 @@ class Call {
       progress.show(fmt::format(
           " ({} of {}, {} found)", quantity(so_far.examined, "set"),
           quantity(so_far.size, options_.in_some_situation ? "item" : "behavior"), so_far.found));
-      return may_go_on();
+      return may_go_on(begin);
     };
     return {task, order, cbc::find_cut_sets(in, task, of_search), of_search.in_some_situation};
   }
@@ -556,7 +616,9 @@ class Call {
         if (status != exit_ok) return status;
       }
     }
-    return options_.html ? write_output(*options_.html, verify_to_html(result_)) : exit_ok;
+    if (!options_.html) return exit_ok;
+    return write_output(*options_.html,
+                        result_.effects ? effects_to_html(result_) : verify_to_html(result_));
   }
 
   static int check_replay(const Answer& answer, const Replay& replayed) {

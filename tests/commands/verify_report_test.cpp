@@ -85,6 +85,49 @@ std::string limit_of(const ExplorationLimits& limits, bool stops) {
   return describe_limit(result, verification.explorations.front());
 }
 
+/// The effects on LAND, of whose search only some steps were made.
+VerifyResult effects_after(int steps) {
+  VerifyResult result;
+  result.catalog = robot();
+  ReportedEffects& effects = result.effects.emplace();
+  effects.situation = complete_situation(*result.catalog, {});
+  EffectOptions options;
+  options.on_progress = [&steps] { return steps-- > 0; };
+  effects.tasks.push_back(
+      find_effects(*result.catalog, result.catalog->task_ids[0], effects.situation, {}, options));
+  return result;
+}
+
+TEST(VerifyReport, SaysThatEffectsAreMissing) {
+  constexpr const char* missing = "a limit ended the search, so effects are missing";
+  int steps = 0;
+  for (; steps < 100; ++steps) {
+    const VerifyResult result = effects_after(steps);
+    const bool is_complete = result.effects->is_complete();
+    const std::string text = verify_to_text(result, plain_style());
+    const Json json = Json::parse(verify_to_json(result))["effects"]["tasks"][0];
+    EXPECT_EQ(result.is_answered(), is_complete);
+    EXPECT_EQ(text.find(missing) == std::string::npos, is_complete) << text;
+    EXPECT_EQ(effects_to_html(result).find(missing) == std::string::npos, is_complete);
+    EXPECT_EQ(json["complete"], is_complete);
+    for (const Json& effect : json["effects"]) {
+      EXPECT_TRUE(is_complete || effect["effect"] != "none") << "that is not known";
+    }
+    if (is_complete) break;
+  }
+  EXPECT_GT(steps, 1);
+}
+
+TEST(Effects, AreComparedExactly) {
+  using Product = std::vector<Millionths>;
+  EXPECT_FALSE(is_below(Product{600'000}, Product{}, 600));
+  EXPECT_TRUE(is_below(Product{599'999}, Product{}, 600));
+  EXPECT_FALSE(is_below(Product{900'000, 800'000}, Product{720'000}, 1000));
+  EXPECT_TRUE(is_below(Product{900'000, 799'999}, Product{720'000}, 1000));
+  EXPECT_FALSE(is_below(Product{0}, Product{0}, 1000));
+  EXPECT_TRUE(is_below(Product{0}, Product{1}, 1));
+}
+
 TEST(VerifyReport, SaysWhatEndedAnExploration) {
   const std::string depth = "; every state up to depth 0 was visited";
   const std::string counts = "; states at each depth: 1";

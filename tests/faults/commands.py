@@ -65,6 +65,8 @@ COMMANDS = [
         ".cbc/settings.json")), replaces=False, repeats=False),
     Command("verify", "verify robot.properties.yaml -j 1 --format json -o result.json --html page.html --scripts scripts",
             ("result.json", "page.html", "scripts/robot.2.mission.yaml"), status=1),
+    Command("effects", "verify robot.yaml --effects --format csv -o effects.csv --html page.html",
+            ("effects.csv", "page.html")),
     Command("cut_sets", "verify robot.yaml -j 1 --cut-sets DRIVE -o sets.txt", ("sets.txt",)),
 ]
 

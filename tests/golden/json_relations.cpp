@@ -210,6 +210,7 @@ class Relations {
   void check_verify(const Json& report) {
     for (const Json& exploration : report.at("groups")) check_exploration(exploration);
     if (!report.at("same_as").is_null()) check_comparison(report.at("same_as"));
+    if (report.contains("effects")) check_effects(report.at("effects"));
     if (report.at("cut_sets").is_null()) return;
     for (const Json& of_task : report.at("cut_sets")) {
       std::size_t size = 0;
@@ -219,6 +220,21 @@ class Relations {
         size = set.size();
       }
       if (of_task.contains("in_some_situation")) check_some_situations(of_task);
+    }
+  }
+
+  /// What is lost has no behaviors, what is not changed those of before.
+  void check_effects(const Json& effects) {
+    for (const Json& of_task : effects.at("tasks")) {
+      for (const Json& effect : of_task.at("effects")) {
+        const Json& behaviors = effect.at("behaviors");
+        expect((effect.at("effect") == "lost") == behaviors.is_null(), "lost, but with behaviors");
+        expect(behaviors.is_null() == effect.at("suitability").is_null(), "half a best answer");
+        expect(effect.at("effect") != "none" || behaviors == of_task.at("behaviors"),
+               "other behaviors without an effect");
+        expect(effect.at("faults").size() <= effects.at("order"), "more faults than the order");
+        expect(effect.at("situation").size() <= 1, "more than a single change");
+      }
     }
   }
 

@@ -50,6 +50,24 @@ TEST_F(Verify, WritesScriptsThatSolveRepeats) {
             std::string::npos);
 }
 
+TEST_F(Verify, HasAPageOfEffects) {
+  const std::string mower = "tests/golden/cases/verify_effects/catalog.yaml";
+  const Result alone = verify({mower, "--effects"});
+  const Result both = verify({mower, "--effects", "--html", scratch / "page.html"});
+  EXPECT_EQ(both.status, 0);
+  EXPECT_EQ(both.out, alone.out);
+  const std::string page = scratch.read("page.html");
+  EXPECT_EQ(page.rfind("<!DOCTYPE html>", 0), 0U);
+  for (const char* const part :
+       {"<h1>Effects of faults: tests/golden/cases/verify_effects/catalog.yaml</h1>",
+        "<h2>MOW: 93.1 % with BLADES, WHEELS, RTK</h2>",
+        "<tr><th scope=\"row\">degraded</th><td>26.6 %</td><td>28.5 %</td><td>RTK</td>"
+        "<td>TRACKS, WIRE</td></tr>",
+        "<tr><th scope=\"row\">lost</th><td></td><td></td><td>HORN</td><td></td></tr>"}) {
+    EXPECT_NE(page.find(part), std::string::npos) << part << "\n" << page;
+  }
+}
+
 TEST_F(Verify, NamesScriptsInJson) {
   const Result result = verify({properties, "--scripts", scratch.path(), "--format", "json"});
   const nlohmann::json report = nlohmann::json::parse(result.out);

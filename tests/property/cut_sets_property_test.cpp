@@ -288,26 +288,6 @@ class Check {
   std::vector<std::set<Set>> supports_;  ///< by situation
 };
 
-void add_situation(Catalog& catalog, Random& random) {
-  const std::size_t count = random.below(4);
-  for (std::size_t i = 0; i < count; ++i) {
-    Variable variable{"V" + std::to_string(i), {}};
-    if (random.percent(50)) variable.values = {"red", "green", "blue"};
-    catalog.variables.push_back(variable);
-  }
-  for (Behavior& behavior : catalog.behaviors) {
-    for (std::size_t variable = 0; variable < count; ++variable) {
-      if (!random.percent(30)) continue;
-      Condition condition{variable, {}};
-      const std::size_t values = catalog.variables[variable].value_count();
-      const std::size_t first = random.below(values);
-      condition.values.push_back(first);
-      if (values > 2 && random.percent(50)) condition.values.push_back((first + 1) % values);
-      behavior.situation.push_back(condition);
-    }
-  }
-}
-
 void run_case(std::uint64_t seed, Results& results) {
   Random random(seed);
   Catalog catalog = generate_strict_catalog(random);

@@ -227,4 +227,24 @@ class StrictGenerator {
 
 Catalog generate_strict_catalog(Random& random) { return StrictGenerator(random).generate(); }
 
+void add_situation(Catalog& catalog, Random& random) {
+  const std::size_t count = random.below(4);
+  for (std::size_t i = 0; i < count; ++i) {
+    Variable variable{"V" + std::to_string(i), {}};
+    if (random.percent(50)) variable.values = {"red", "green", "blue"};
+    catalog.variables.push_back(variable);
+  }
+  for (Behavior& behavior : catalog.behaviors) {
+    for (std::size_t variable = 0; variable < count; ++variable) {
+      if (!random.percent(30)) continue;
+      Condition condition{variable, {}};
+      const std::size_t values = catalog.variables[variable].value_count();
+      const std::size_t first = random.below(values);
+      condition.values.push_back(first);
+      if (values > 2 && random.percent(50)) condition.values.push_back((first + 1) % values);
+      behavior.situation.push_back(condition);
+    }
+  }
+}
+
 }  // namespace cbc::oracle

@@ -10,4 +10,7 @@ namespace cbc::oracle {
 // 1000 assignments and 60 constraints each. A behavior may require a task twice.
 Catalog generate_strict_catalog(Random& random);
 
+// Adds up to three situation variables, and conditions of behaviors on them.
+void add_situation(Catalog& catalog, Random& random);
+
 }  // namespace cbc::oracle

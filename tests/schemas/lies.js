@@ -66,6 +66,7 @@ const propertyWhere =
   ({properties}) =>
     properties.find((item) => item.result === result && (!kind || item.kind === kind));
 const cutSets = (report) => report.cut_sets && report.cut_sets[0];
+const effect = ({effects}) => effects && effects.tasks[0].effects[0];
 const edgeOf = (kind) => (graph) => graph.edges.find((item) => item.kind === kind);
 const finding = ({files}) => files[0].diagnostics[0];
 const summary = ({files}) => files[0].summary;
@@ -259,6 +260,9 @@ const lies = {
     ['a set of cut sets twice', cutSets, ({sets}) => sets.push(sets[0])],
     ['sets of no behavior', cutSets, {order: 0}],
     ['no task with cut sets', whole, {cut_sets: []}],
+    ['an effect of another kind', effect, {effect: 'worse'}],
+    ['a suitability in percent', effect, {suitability: 80}],
+    ['a fault twice', effect, {faults: ['A', 'A']}],
   ],
 
   state: [

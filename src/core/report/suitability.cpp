@@ -94,10 +94,22 @@ std::string exact_suitability(const CompiledCatalog& catalog, const State& state
   return product.exact();
 }
 
-std::string percent_of_product(std::span<const Millionths> suitabilities) {
+namespace {
+
+Product multiply(std::span<const Millionths> suitabilities) {
   Product product;
   for (const Millionths suitability : suitabilities) product.multiply(suitability);
-  const std::string digits = product.exact();
+  return product;
+}
+
+}  // namespace
+
+double product_of(std::span<const Millionths> suitabilities) {
+  return multiply(suitabilities).nearest_double();
+}
+
+std::string percent_of_product(std::span<const Millionths> suitabilities) {
+  const std::string digits = multiply(suitabilities).exact();
   if (digits == "1") return "100";
   std::string millionths = digits.size() > 2 ? digits.substr(2, 6) : "";
   millionths.resize(6, '0');

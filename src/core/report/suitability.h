@@ -28,6 +28,9 @@ namespace cbc {
 [[nodiscard]] std::string exact_suitability(const CompiledCatalog& catalog, const State& state,
                                             GroupId group, const Assignment& places);
 
+/// The product of some suitabilities, from 0 to 1, as the nearest double.
+[[nodiscard]] double product_of(std::span<const Millionths> suitabilities);
+
 /// The product of some suitabilities, in percent, with up to 4 decimals; the rest is cut off, so
 /// that a number below a limit does not look as if it reached it.
 [[nodiscard]] std::string percent_of_product(std::span<const Millionths> suitabilities);

@@ -1,5 +1,5 @@
 # Makes a C++ header of the files of the page: its beginning, up to what it may connect to, and two lists
-# of texts, before its data and after it; and the style of the page of coverage.
+# of texts, before its data and after it; and the styles of pages without script.
 #
 #   cmake -D folder=FOLDER -D output=HEADER -P embed.cmake
 #
@@ -48,6 +48,7 @@ function(read_parts prefix)
 endfunction()
 
 read_parts(coverage coverage.css)
+read_parts(tables tables.css)
 read_parts(style ${styles})
 read_parts(script ${scripts})
 file(READ "${folder}/page.html" page)
@@ -83,6 +84,11 @@ ${script_literals}    R\"page(${page})page\",
 inline constexpr std::string_view coverage_style =
     R\"page(${coverage_text})page\";
 inline constexpr std::string_view coverage_style_hash = \"${coverage_hash}\";
+
+/// The style of pages of tables, which have no script either.
+inline constexpr std::string_view tables_style =
+    R\"page(${tables_text})page\";
+inline constexpr std::string_view tables_style_hash = \"${tables_hash}\";
 
 }  // namespace cbc
 ")

@@ -4,8 +4,22 @@
 
 namespace cbc {
 
+BehaviorSet behaviors_of(const CompiledCatalog& catalog, TaskId task,
+                         const Assignment& assignment) {
+  const TaskId first = catalog.group_tasks[catalog.tasks[task].group];
+  BehaviorSet active;
+  for (LocalTask local(0); local < assignment.size(); ++local) {
+    if (assignment[local] == none) continue;
+    active.push_back(catalog.values[first + local][assignment[local]].behavior);
+  }
+  std::sort(active.begin(), active.end());
+  active.erase(std::unique(active.begin(), active.end()), active.end());
+  return active;
+}
+
 TaskSearch::TaskSearch(const CompiledCatalog& catalog, TaskId task, Wanted wanted)
     : catalog_(catalog),
+      task_(task),
       first_task_(catalog.group_tasks[catalog.tasks[task].group]),
       wanted_(wanted) {
   problem_.group = catalog.tasks[task].group;
@@ -40,17 +54,6 @@ TaskSearch::Answer TaskSearch::find_without(const std::vector<bool>& absent,
     if (wanted_ == Wanted::any && has_solution(status)) return Answer::found;
     set_budget(2 * budget_);
   }
-}
-
-BehaviorSet TaskSearch::active() const {
-  BehaviorSet active;
-  for (LocalTask task(0); task < assignment_.size(); ++task) {
-    if (assignment_[task] == none) continue;
-    active.push_back(catalog_.values[first_task_ + task][assignment_[task]].behavior);
-  }
-  std::sort(active.begin(), active.end());
-  active.erase(std::unique(active.begin(), active.end()), active.end());
-  return active;
 }
 
 /// A hard search begins anew with twice the decisions, which at most triples the effort, so that

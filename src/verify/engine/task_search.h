@@ -16,6 +16,10 @@ namespace cbc {
 /// Behaviors, ascending.
 using BehaviorSet = std::vector<BehaviorId>;
 
+/// The active behaviors of an assignment of the group of a task.
+[[nodiscard]] BehaviorSet behaviors_of(const CompiledCatalog& catalog, TaskId task,
+                                       const Assignment& assignment);
+
 /// Searches for assignments that satisfy all constraints and run a task, while some behaviors are
 /// not to be had. Nothing runs before, and every other task may run.
 class TaskSearch {
@@ -38,13 +42,14 @@ class TaskSearch {
   [[nodiscard]] const Assignment& assignment() const { return assignment_; }
   /// Its active behaviors. A solution runs only what the task needs (solver/domains.h), so none of
   /// them is there in vain.
-  [[nodiscard]] BehaviorSet active() const;
+  [[nodiscard]] BehaviorSet active() const { return behaviors_of(catalog_, task_, assignment_); }
 
  private:
   void set_budget(std::uint64_t nodes);
   void flip(ValueId value);
 
   const CompiledCatalog& catalog_;
+  const TaskId task_;
   const TaskId first_task_;
   const Wanted wanted_;
   const std::vector<std::uint32_t> no_ranks_;

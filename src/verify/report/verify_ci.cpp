@@ -179,8 +179,9 @@ std::span<const VerifyFormat> verify_formats() {
       {"text", verify_to_text},
       {"json",
        [](const VerifyResult& result, const Style& /*style*/) { return verify_to_json(result); }},
-      {"junit", write_tests<junit_format>, true, write_unreadable<junit_format>},
-      {"github", write_tests<github_format>, true, write_unreadable<github_format>},
+      {"junit", write_tests<junit_format>, true, false, write_unreadable<junit_format>},
+      {"github", write_tests<github_format>, true, false, write_unreadable<github_format>},
+      {"csv", effects_to_csv, false, true},
   };
   return formats;
 }

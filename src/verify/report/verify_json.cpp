@@ -8,6 +8,7 @@
 
 #include "core/report/explanation_json.h"
 #include "core/support/json_description.h"
+#include "verify/report/effects_json.h"
 #include "verify/report/verify_report.h"
 
 namespace cbc {
@@ -417,7 +418,9 @@ constexpr auto report = object(
            &VerifyResult::same_as),
     member("cut_sets", nullable(list(cut_sets).at_least(1).on_lines()),
            "The minimal cut sets of the tasks that were named; null if none was.",
-           [](const VerifyResult& of) { return of.wants_cut_sets ? &of.cut_sets : nullptr; }));
+           [](const VerifyResult& of) { return of.wants_cut_sets ? &of.cut_sets : nullptr; }),
+    optional("effects", effects, "With --effects: what faults do to each task.",
+             &VerifyResult::effects));
 
 }  // namespace json::verify
 

@@ -16,6 +16,7 @@
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "verify/engine/cut_sets.h"
+#include "verify/engine/effects.h"
 #include "verify/engine/explore.h"
 #include "verify/engine/same_as.h"
 
@@ -68,6 +69,28 @@ struct TaskCutSets {
   bool in_some_situation = false;  ///< see CutSetOptions
 };
 
+/// Which effects make a check fail (--fail-on).
+struct EffectLimit {
+  std::string text;               ///< as given: "lost", "degraded:60"
+  std::uint32_t thousandths = 0;  ///< of the suitability without faults that have to be left
+};
+
+/// The effects of faults on the tasks that can be requested.
+struct ReportedEffects {
+  std::uint32_t order = 1;
+  SituationPart situation;             ///< of every variable a value
+  std::vector<VariableValue> changes;  ///< those that were looked at
+  std::vector<TaskEffects> tasks;      ///< in catalog order
+  std::optional<EffectLimit> limit;
+
+  [[nodiscard]] bool is_complete() const;
+  /// The number of effects that exceed the limit, if there is one.
+  [[nodiscard]] std::size_t count_failing(const CompiledCatalog& catalog) const;
+  /// All effects on a task, with those that are none.
+  [[nodiscard]] std::vector<Effect> all_of(const CompiledCatalog& catalog,
+                                           const TaskEffects& of_task) const;
+};
+
 /// An event that two catalogs decide differently, and its script, run on both.
 struct ReportedDifference {
   const EventDifference* difference = nullptr;
@@ -96,11 +119,12 @@ struct VerifyResult {
   /// What is given of the situation of all cut sets, and the situations that do not occur.
   SituationPart situation;
   std::vector<SituationPart> never;
+  std::optional<ReportedEffects> effects;
   std::optional<ReportedComparison> same_as;
   ExplorationLimits limits;
 
-  /// Whether all properties are proved, and all groups without properties explored, and no limit
-  /// ended a search for cut sets.
+  /// Whether all properties are proved, and all groups without properties explored, no limit ended
+  /// a search for cut sets or effects, and no effect exceeds --fail-on.
   [[nodiscard]] bool is_answered() const;
 };
 
@@ -126,6 +150,12 @@ struct VerifyResult {
 void add_cut_sets(const VerifyResult& result, const TaskCutSets& of_task, Text& text);
 void add_single_faults(const VerifyResult& result, Text& text);
 
+/// Adds the effects of faults, task by task.
+void add_effects(const VerifyResult& result, Text& text);
+/// All effects, as CSV (RFC 4180), and as a page.
+[[nodiscard]] std::string effects_to_csv(const VerifyResult& result, const Style& style);
+[[nodiscard]] std::string effects_to_html(const VerifyResult& result);
+
 /// The result for people.
 [[nodiscard]] std::string verify_to_text(const VerifyResult& result, const Style& style);
 
@@ -139,7 +169,8 @@ void add_single_faults(const VerifyResult& result, Text& text);
 struct VerifyFormat {
   std::string_view name;
   std::string (*write)(const VerifyResult& result, const Style& style);
-  bool needs_tests = false;  ///< properties or a comparison; it has no place for anything else
+  bool needs_tests = false;    ///< properties or a comparison; it has no place for anything else
+  bool needs_effects = false;  ///< the same for effects of faults
   /// Writes why there is no result, in place of a report. Null: nothing is written then.
   std::string (*report_unreadable)(const std::vector<Diagnostic>& findings) = nullptr;
 };

@@ -1,0 +1,197 @@
+// The sets of faults that matter are found as cut sets are (cut_sets.cpp): a fault changes the best
+// assignment only if it takes one of its behaviors away. So the children of a set add one behavior
+// of its best assignment each, and every other set has the effect of a part of it. An optimum over
+// fewer assignments that is still there stays the optimum, as ranks do not depend on what else is
+// available where nothing runs before (docs/semantics.md, "Objectives").
+
+#include "verify/engine/effects.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "runtime/base/natural.h"
+
+namespace cbc {
+namespace {
+
+class EffectSearch {
+ public:
+  EffectSearch(const CompiledCatalog& catalog, TaskId task, const EffectOptions& options)
+      : catalog_(catalog), options_(options), search_(catalog, task, TaskSearch::Wanted::best) {
+    result_.task = task;
+  }
+
+  TaskEffects find(const SituationPart& situation, std::span<const VariableValue> changes) {
+    out_ = ruled_out_in(situation);
+    BestAssignment best;
+    if (!find_best({}, best)) return std::move(result_);
+    result_.best = best;
+    if (!best) {
+      result_.effects.push_back({});
+      result_.complete = true;
+      return std::move(result_);
+    }
+    result_.complete = add_faults() && add_changes(situation, changes);
+    return std::move(result_);
+  }
+
+ private:
+  /// By BehaviorId: those that are not available.
+  [[nodiscard]] std::vector<bool> ruled_out_in(const SituationPart& situation) const {
+    const SituationSpace space(catalog_, situation, {});
+    std::vector<bool> out(catalog_.behaviors.size(), false);
+    for (BehaviorId behavior(0); behavior < out.size(); ++behavior) {
+      out[behavior] = !space.is_available(behavior) || !space.may_fit(behavior, space.all());
+    }
+    return out;
+  }
+
+  /// False if the search is stopped.
+  [[nodiscard]] bool find_best(const BehaviorSet& faults, BestAssignment& best) {
+    std::vector<bool> out = out_;
+    for (const BehaviorId behavior : faults) out[behavior] = true;
+    const auto keep_on = [this] { return !options_.on_progress || options_.on_progress(); };
+    const TaskSearch::Answer answer = search_.find_without(out, keep_on);
+    if (answer == TaskSearch::Answer::stopped) return false;
+    if (answer == TaskSearch::Answer::found) best = search_.assignment();
+    return true;
+  }
+
+  [[nodiscard]] bool add_faults() {
+    using Node = std::pair<BehaviorSet, BestAssignment>;
+    std::vector<Node> level{{{}, result_.best}};
+    for (std::uint32_t size = 1; size <= options_.order && !level.empty(); ++size) {
+      std::set<BehaviorSet> sets;
+      for (const auto& [set, best] : level) {
+        for (const BehaviorId behavior : behaviors_of(catalog_, result_.task, *best)) {
+          BehaviorSet larger = set;
+          larger.insert(std::lower_bound(larger.begin(), larger.end(), behavior), behavior);
+          sets.insert(std::move(larger));
+        }
+      }
+      level.clear();
+      for (const BehaviorSet& set : sets) {
+        BestAssignment best;
+        if (!find_best(set, best)) return false;
+        if (!has_effect_of_part(set, best)) add({{}, set, {}, best});
+        if (best) level.emplace_back(set, best);
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool has_effect_of_part(const BehaviorSet& set, const BestAssignment& best) const {
+    return std::any_of(result_.effects.begin(), result_.effects.end(), [&](const Effect& effect) {
+      return effect.best == best &&
+             std::includes(set.begin(), set.end(), effect.faults.begin(), effect.faults.end());
+    });
+  }
+
+  [[nodiscard]] bool add_changes(const SituationPart& situation,
+                                 std::span<const VariableValue> changes) {
+    for (const VariableValue& change : changes) {
+      SituationPart changed = situation;
+      for (VariableValue& value : changed.variables) {
+        if (value.variable == change.variable) value = change;
+      }
+      std::vector<bool> out = ruled_out_in(changed);
+      // What does not depend on the variable stays as it is.
+      if (out == out_) continue;
+      std::swap(out, out_);
+      BestAssignment best;
+      const bool is_done = find_best({}, best);
+      std::swap(out, out_);
+      if (!is_done) return false;
+      if (best != result_.best) add({{}, {}, change, best});
+    }
+    return true;
+  }
+
+  void add(Effect effect) {
+    effect.kind = effect.best ? Effect::Kind::degraded : Effect::Kind::lost;
+    result_.effects.push_back(std::move(effect));
+  }
+
+  const CompiledCatalog& catalog_;
+  const EffectOptions& options_;
+  TaskSearch search_;
+  std::vector<bool> out_;  ///< by BehaviorId: not available in the situation
+  TaskEffects result_;
+};
+
+}  // namespace
+
+std::string_view name_of(Effect::Kind kind) {
+  constexpr std::array<std::string_view, 3> names = {"lost", "degraded", "none"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+SituationPart complete_situation(const CompiledCatalog& catalog, SituationPart given) {
+  std::vector<VariableValue> values;
+  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+    values.push_back({variable, 0});
+  }
+  for (const VariableValue& value : given.variables) values[value.variable] = value;
+  given.variables = std::move(values);
+  return given;
+}
+
+std::vector<VariableValue> changes_of(const CompiledCatalog& catalog,
+                                      const SituationPart& situation,
+                                      std::span<const SituationPart> never) {
+  std::vector<VariableValue> changes;
+  SituationPart changed = situation;
+  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+    for (std::uint32_t value = 0; value < catalog.variables[variable].value_count; ++value) {
+      if (value == situation.variables[variable].value) continue;
+      changed.variables[variable].value = value;
+      const SituationSpace space(catalog, changed, never);
+      if (space.find(space.all())) changes.push_back({variable, value});
+    }
+    changed.variables[variable] = situation.variables[variable];
+  }
+  return changes;
+}
+
+TaskEffects find_effects(const CompiledCatalog& catalog, TaskId task,
+                         const SituationPart& situation, std::span<const SituationPart> never,
+                         const EffectOptions& options) {
+  const std::vector<VariableValue> changes =
+      options.situations ? changes_of(catalog, situation, never) : std::vector<VariableValue>{};
+  return EffectSearch(catalog, task, options).find(situation, changes);
+}
+
+std::vector<Millionths> suitabilities_of(const CompiledCatalog& catalog, TaskId task,
+                                         const Assignment& assignment) {
+  constexpr Millionths whole = 1'000'000;
+  const TaskId first = catalog.group_tasks[catalog.tasks[task].group];
+  std::vector<Millionths> factors;
+  for (LocalTask local(0); local < assignment.size(); ++local) {
+    if (assignment[local] == none) continue;
+    const Millionths factor = catalog.values[first + local][assignment[local]].suitability;
+    if (factor != whole) factors.push_back(factor);
+  }
+  return factors;
+}
+
+bool is_below(std::span<const Millionths> product, std::span<const Millionths> whole,
+              std::uint32_t thousandths) {
+  Natural left;
+  Natural right;
+  const auto add = [](std::span<const Millionths> factors, Natural& to, Natural& scale_of) {
+    for (const Millionths factor : factors) {
+      to.multiply(static_cast<std::uint32_t>(factor));
+      scale_of.multiply(1'000'000);
+    }
+  };
+  add(product, left, right);
+  add(whole, right, left);
+  left.multiply(1000);
+  right.multiply(thousandths);
+  return left < right;
+}
+
+}  // namespace cbc
