@@ -28,6 +28,7 @@ struct VerifyOptions {
   bool in_some_situation = false;
   std::vector<std::string> situation;  ///< KEY=VALUE
   bool effects = false;
+  bool overrides = false;
   bool situations = false;
   std::optional<std::string> fail_on;  ///< "lost", "degraded:60"
 };

@@ -109,7 +109,7 @@ void add_verify_command(Program& program) {
       .only_with({"--cut-sets"});
   command
       .option("--situation", options->situation, situation_entry(), "In this situation; repeatable")
-      .only_with({"--cut-sets", "--effects"});
+      .only_with({"--cut-sets", "--effects", "--overrides"});
   command.flag("--effects", options->effects, "Tabulate what faults do to each task")
       .not_with({"--cut-sets", "--refused", "--same-as", "--scripts"})
       .only_with_values("--format", {"text", "json", "csv"});
@@ -119,6 +119,10 @@ void add_verify_command(Program& program) {
       .option("--fail-on", options->fail_on, effect_limit(),
               "Exit with 1 on: lost, or degraded:60 (below 60 %)")
       .only_with({"--effects"});
+
+  command.flag("--overrides", options->overrides, "Tabulate which of two requests gives way")
+      .not_with({"--cut-sets", "--effects", "--refused", "--same-as", "--scripts"})
+      .only_with_values("--format", {"text", "json"});
 
   command.moved({"--write-tests"}, "'cbc coverage --write-missing'");
   command.moved({"--mutants"}, "'cbc coverage --mutants'");

@@ -13,6 +13,7 @@
 
 #include <fmt/core.h>
 
+#include "core/check/together.h"
 #include "core/command_line/command_line.h"
 #include "core/files/file_set.h"
 #include "core/files/ordered_work.h"
@@ -244,6 +245,9 @@ class Call {
     if (const std::string error = first_error(); !error.empty()) return complain(error);
     find_cut_sets();
     if (options_.effects) find_effects();
+    if (options_.overrides) {
+      if (const int status = find_overrides(); status != exit_ok) return status;
+    }
     if (const int status = replay_scripts(); status != exit_ok) return status;
     if (const int status = compare(); status != exit_ok) return status;
     return report();
@@ -299,6 +303,7 @@ class Call {
     }
     const char* const takes_one_file = result_.wants_cut_sets ? "--cut-sets"
                                        : options_.effects     ? "--effects"
+                                       : options_.overrides   ? "--overrides"
                                        : options_.same_as     ? "--same-as"
                                                               : nullptr;
     if (takes_one_file != nullptr && questions_.files.size() > 1) {
@@ -350,7 +355,7 @@ class Call {
   }
 
   /// Whether property files only say what is assumed.
-  [[nodiscard]] bool asks_only_otherwise() const { return options_.effects; }
+  [[nodiscard]] bool asks_only_otherwise() const { return options_.effects || options_.overrides; }
 
   /// The tasks that the assumptions let be requested, in catalog order.
   [[nodiscard]] std::vector<TaskId> requestable_tasks() const {
@@ -552,13 +557,37 @@ class Call {
     if (options_.fail_on) effects.limit = limit_of(*options_.fail_on);
     const std::vector<TaskId> tasks = requestable_tasks();
     Progress progress("searching", tasks.size());
-    EffectOptions of_search{effects.order, options_.situations,
+    EffectOptions of_search{effects.order,
                             [this, begin = Clock::now()] { return may_go_on(begin); }};
     for (const TaskId task : tasks) {
       progress.begin(std::string(catalog_.name_of_task(task)));
       effects.tasks.push_back(
-          cbc::find_effects(catalog_, task, effects.situation, result_.never, of_search));
+          cbc::find_effects(catalog_, task, effects.situation, effects.changes, of_search));
     }
+  }
+
+  int find_overrides() {
+    ReportedOverrides& overrides = result_.overrides.emplace();
+    overrides.situation = complete_situation(catalog_, result_.situation);
+    const std::vector<TaskId> tasks = requestable_tasks();
+    if (tasks.size() > most_tasks_in_pairs) {
+      return complain(
+          "--overrides: {} can be requested; expected at most {} (a property file can "
+          "list fewer: assume: {{start: [TASK...]}})",
+          quantity(tasks.size(), "task"), most_tasks_in_pairs);
+    }
+    Progress progress("searching", 1);
+    progress.begin(std::string(catalog_.file));
+    const auto keep_on = [this, &progress, begin = Clock::now()](std::size_t rows) {
+      progress.show(fmt::format(" ({} decided)", quantity(rows, "task")));
+      return may_go_on(begin);
+    };
+    overrides.matrix = cbc::find_overrides(catalog_, tasks, overrides.situation, keep_on);
+    progress.clear();
+    if (overrides.matrix.error.empty()) return exit_ok;
+    complain("{}", overrides.matrix.error);
+    complain("this is a bug in cbc, not in the catalog; please report it with the catalog");
+    return exit_internal;
   }
 
   static EffectLimit limit_of(const std::string& text) {
@@ -617,8 +646,12 @@ class Call {
       }
     }
     if (!options_.html) return exit_ok;
-    return write_output(*options_.html,
-                        result_.effects ? effects_to_html(result_) : verify_to_html(result_));
+    return write_output(*options_.html, page());
+  }
+
+  [[nodiscard]] std::string page() const {
+    if (result_.effects) return effects_to_html(result_);
+    return result_.overrides ? overrides_to_html(result_) : verify_to_html(result_);
   }
 
   static int check_replay(const Answer& answer, const Replay& replayed) {

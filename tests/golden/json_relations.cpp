@@ -211,6 +211,7 @@ class Relations {
     for (const Json& exploration : report.at("groups")) check_exploration(exploration);
     if (!report.at("same_as").is_null()) check_comparison(report.at("same_as"));
     if (report.contains("effects")) check_effects(report.at("effects"));
+    if (report.contains("overrides")) check_overrides(report.at("overrides"));
     if (report.at("cut_sets").is_null()) return;
     for (const Json& of_task : report.at("cut_sets")) {
       std::size_t size = 0;
@@ -234,6 +235,18 @@ class Relations {
                "other behaviors without an effect");
         expect(effect.at("faults").size() <= effects.at("order"), "more faults than the order");
         expect(effect.at("situation").size() <= 1, "more than a single change");
+      }
+    }
+  }
+
+  /// Only of two tasks that run, something changes.
+  void check_overrides(const Json& overrides) {
+    for (const Json& pair : overrides.at("pairs")) {
+      expect(pair.at("first") != pair.at("second"), "a pair of one task");
+      for (const char* const priority : {"same", "higher", "lower"}) {
+        const Json& one = pair.at(priority);
+        const bool has_changes = one.at("result") == "worse" || one.at("result") == "other";
+        expect(has_changes == !one.at("changes").empty(), "changes, or none, without reason");
       }
     }
   }

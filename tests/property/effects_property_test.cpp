@@ -67,10 +67,12 @@ class Check {
     draw_situation();
     EffectOptions options;
     options.order = static_cast<std::uint32_t>(1 + random_.below(3));
-    options.situations = random_.percent(50);
+    if (random_.percent(50)) changes_ = changes_of(compiled_, given_, never_);
+    has_changes_ = !changes_.empty();
     for (std::size_t task = 0; task < catalog_.tasks.size(); ++task) {
       task_ = task;
-      const TaskEffects found = find_effects(compiled_, id_of_task(task), given_, never_, options);
+      const TaskEffects found =
+          find_effects(compiled_, id_of_task(task), given_, changes_, options);
       demand(found.complete, "not complete");
       compare(found, options);
       compare_with_cut_sets(found, options);
@@ -172,7 +174,7 @@ class Check {
       known.emplace(faults, best);
       if (!is_of_part) effects.push_back({faults, {}, best});
     }
-    for (std::size_t variable = 0; options.situations && variable < values_.size(); ++variable) {
+    for (std::size_t variable = 0; has_changes_ && variable < values_.size(); ++variable) {
       for (std::size_t value = 0; value < catalog_.variables[variable].value_count(); ++value) {
         if (value == values_[variable]) continue;
         if (excluded_ == std::pair(variable, value)) continue;
@@ -244,7 +246,7 @@ class Check {
   void compare_all(const TaskEffects& found, const EffectOptions& options) {
     ReportedEffects report;
     report.order = options.order;
-    if (options.situations) report.changes = changes_of(compiled_, given_, never_);
+    report.changes = changes_;
     const std::vector<Effect> all = report.all_of(compiled_, found);
     if (!best_) return demand(all.size() == 1, "of what never runs there is one effect");
     std::vector<ModelEffect> expected;
@@ -321,6 +323,8 @@ class Check {
   std::vector<std::size_t> values_;  ///< of the variables
   SituationPart given_;
   std::vector<SituationPart> never_;
+  std::vector<VariableValue> changes_;
+  bool has_changes_ = false;  ///< whether changes are asked for, and there are any
   std::optional<std::pair<std::size_t, std::size_t>> excluded_;
   std::size_t task_ = 0;
   Best best_;  ///< without faults

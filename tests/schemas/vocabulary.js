@@ -99,7 +99,7 @@ function isOptional(object, name) {
   if (name === 'situation') return object.kind === 'behavior' || 'event' in object;
   if (name === 'variables') return !('groups' in object) && !('unconditional' in object);
   if (name === 'behavior') return ['minimum_decided', 'minimum_removed', 'performance'].includes(object.kind);
-  if (name === 'effects') return 'groups' in object; // of a report; not of a task
+  if (['effects', 'overrides'].includes(name)) return 'groups' in object; // of a report; not of a task
   if (name === 'script') return 'change' in object; // of a mutant; not of a property
   if (['file', 'groups', 'reduced', 'states_at_depth'].includes(name)) return 'group' in object; // of an exploration
   if (name === 'error') return 'events' in object; // of a run; not of a line

@@ -157,10 +157,8 @@ std::vector<VariableValue> changes_of(const CompiledCatalog& catalog,
 }
 
 TaskEffects find_effects(const CompiledCatalog& catalog, TaskId task,
-                         const SituationPart& situation, std::span<const SituationPart> never,
+                         const SituationPart& situation, std::span<const VariableValue> changes,
                          const EffectOptions& options) {
-  const std::vector<VariableValue> changes =
-      options.situations ? changes_of(catalog, situation, never) : std::vector<VariableValue>{};
   return EffectSearch(catalog, task, options).find(situation, changes);
 }
 

@@ -21,7 +21,6 @@ namespace cbc {
 
 struct EffectOptions {
   std::uint32_t order = 1;  ///< the most faults together
-  bool situations = false;  ///< also single changes of situation variables
   /// Called before each search for an assignment, and now and then during a long one; false ends
   /// the whole search. May be empty.
   std::function<bool()> on_progress;
@@ -67,10 +66,10 @@ struct TaskEffects {
                                                     const SituationPart& situation,
                                                     std::span<const SituationPart> never);
 
-/// `situation`: a complete one.
+/// The effects of faults, and of some changes of the situation. `situation`: a complete one.
 [[nodiscard]] TaskEffects find_effects(const CompiledCatalog& catalog, TaskId task,
                                        const SituationPart& situation,
-                                       std::span<const SituationPart> never,
+                                       std::span<const VariableValue> changes,
                                        const EffectOptions& options);
 
 /// The suitabilities of which the objective f2 of an assignment is the product; those of 100 % left

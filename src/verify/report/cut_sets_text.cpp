@@ -16,9 +16,6 @@
 
 namespace cbc {
 
-namespace {
-
-/// "LIGHT is night and GPS is unavailable"
 std::string describe_part(const CompiledCatalog& catalog, const SituationPart& part) {
   std::vector<std::string> words;
   for (const VariableValue& value : part.variables) {
@@ -30,6 +27,8 @@ std::string describe_part(const CompiledCatalog& catalog, const SituationPart& p
   }
   return list_with_and(words);
 }
+
+namespace {
 
 /// What of the situation is given, as far as it matters to some tasks.
 SituationPart given_for(const VerifyResult& result, const std::vector<TaskId>& tasks) {

@@ -93,24 +93,13 @@ std::string describe_rest(const std::vector<Millionths>& now,
   return fmt::format("{}.{} %", thousandths / 10, thousandths % 10);
 }
 
-/// What of the situation decides whether some task can run: "where LIGHT is dark".
-std::string describe_place(const CompiledCatalog& catalog, const ReportedEffects& effects) {
-  std::vector<std::string> words;
-  for (const VariableValue& value : effects.situation.variables) {
-    words.push_back(describe_value(catalog, value));
-  }
-  for (const SituationPart::Own& own : effects.situation.behaviors) {
-    if (!own.available) words.push_back(behavior_name(catalog, own.behavior) + " is unavailable");
-  }
-  return words.empty() ? "" : " where " + list_with_and(words);
-}
-
 std::string title_of(const CompiledCatalog& catalog, const ReportedEffects& effects) {
-  return fmt::format("effects of {}{}{}",
+  const std::string place = describe_part(catalog, effects.situation);
+  return fmt::format("effects of {}{}{}{}",
                      effects.order == 1 ? "single faults"
                                         : fmt::format("at most {} faults together", effects.order),
                      effects.changes.empty() ? "" : " and of single changes of the situation",
-                     describe_place(catalog, effects));
+                     place.empty() ? "" : " where ", place);
 }
 
 std::string title_of(const CompiledCatalog& catalog, const TaskEffects& of) {

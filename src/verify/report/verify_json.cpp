@@ -9,6 +9,7 @@
 #include "core/report/explanation_json.h"
 #include "core/support/json_description.h"
 #include "verify/report/effects_json.h"
+#include "verify/report/overrides_json.h"
 #include "verify/report/verify_report.h"
 
 namespace cbc {
@@ -420,7 +421,10 @@ constexpr auto report = object(
            "The minimal cut sets of the tasks that were named; null if none was.",
            [](const VerifyResult& of) { return of.wants_cut_sets ? &of.cut_sets : nullptr; }),
     optional("effects", effects, "With --effects: what faults do to each task.",
-             &VerifyResult::effects));
+             &VerifyResult::effects),
+    optional("overrides", overrides,
+             "With --overrides: what becomes of two tasks that are requested one after the other.",
+             &VerifyResult::overrides));
 
 }  // namespace json::verify
 

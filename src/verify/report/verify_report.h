@@ -18,6 +18,7 @@
 #include "verify/engine/cut_sets.h"
 #include "verify/engine/effects.h"
 #include "verify/engine/explore.h"
+#include "verify/engine/overrides.h"
 #include "verify/engine/same_as.h"
 
 // The reports of `cbc verify`.
@@ -91,6 +92,12 @@ struct ReportedEffects {
                                            const TaskEffects& of_task) const;
 };
 
+/// Who gives way to whom.
+struct ReportedOverrides {
+  SituationPart situation;  ///< of every variable a value
+  OverrideMatrix matrix;
+};
+
 /// An event that two catalogs decide differently, and its script, run on both.
 struct ReportedDifference {
   const EventDifference* difference = nullptr;
@@ -120,11 +127,12 @@ struct VerifyResult {
   SituationPart situation;
   std::vector<SituationPart> never;
   std::optional<ReportedEffects> effects;
+  std::optional<ReportedOverrides> overrides;
   std::optional<ReportedComparison> same_as;
   ExplorationLimits limits;
 
   /// Whether all properties are proved, and all groups without properties explored, no limit ended
-  /// a search for cut sets or effects, and no effect exceeds --fail-on.
+  /// another search, and no effect exceeds --fail-on.
   [[nodiscard]] bool is_answered() const;
 };
 
@@ -146,6 +154,9 @@ struct VerifyResult {
 /// What ended a comparison.
 [[nodiscard]] std::string describe_comparison_end(const VerifyResult& result, ExplorationEnd end);
 
+/// "LIGHT is night and GPS is unavailable"
+[[nodiscard]] std::string describe_part(const CompiledCatalog& catalog, const SituationPart& part);
+
 /// Adds the cut sets of a task; the behaviors without which a task cannot run.
 void add_cut_sets(const VerifyResult& result, const TaskCutSets& of_task, Text& text);
 void add_single_faults(const VerifyResult& result, Text& text);
@@ -155,6 +166,10 @@ void add_effects(const VerifyResult& result, Text& text);
 /// All effects, as CSV (RFC 4180), and as a page.
 [[nodiscard]] std::string effects_to_csv(const VerifyResult& result, const Style& style);
 [[nodiscard]] std::string effects_to_html(const VerifyResult& result);
+
+/// Adds the matrix of who gives way to whom; the same as a page.
+void add_overrides(const VerifyResult& result, Text& text);
+[[nodiscard]] std::string overrides_to_html(const VerifyResult& result);
 
 /// The result for people.
 [[nodiscard]] std::string verify_to_text(const VerifyResult& result, const Style& style);

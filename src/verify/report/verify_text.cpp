@@ -38,6 +38,7 @@ bool VerifyResult::is_answered() const {
                      }) &&
          std::all_of(single_faults.begin(), single_faults.end(), is_found) &&
          std::all_of(cut_sets.begin(), cut_sets.end(), is_found) &&
+         (!overrides || overrides->matrix.complete) &&
          (!effects || (effects->is_complete() && effects->count_failing(*catalog) == 0)) &&
          (!same_as || same_as->comparison.result == Verdict::Result::proved);
 }
@@ -508,6 +509,7 @@ std::string verify_to_text(const VerifyResult& result, const Style& style) {
   if (result.same_as) add_comparison(result, text);
   for (const TaskCutSets& of_task : result.cut_sets) add_cut_sets(result, of_task, text);
   if (result.effects) add_effects(result, text);
+  if (result.overrides) add_overrides(result, text);
   add_totals(result, text);
   return text.take();
 }
