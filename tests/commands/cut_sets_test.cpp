@@ -209,6 +209,35 @@ TEST(CutSets, DoNotCountSituationsThatNeverOccur) {
   EXPECT_EQ(some.sets, expected);
 }
 
+/// Thirty pairs of tasks have to agree about a variable each, which the best behaviors do not; the
+/// last pair cannot. To try all combinations of what the others agree about would take forever.
+TEST(CutSets, FindWhatCannotBeSettledAmongWhatCan) {
+  std::string text = "situation:\n";
+  for (int i = 0; i <= 30; ++i) text += fmt::format("- {{variable: V{}, values: [a, b]}}\n", i);
+  text += "behaviors:\n- {behavior: all, task: ALL, requires: [";
+  for (int i = 0; i <= 30; ++i) text += fmt::format("{{task: L{0}}}, {{task: R{0}}}, ", i);
+  text += "]}\n";
+  for (int i = 0; i <= 30; ++i) {
+    text += fmt::format(
+        "- {{behavior: l{0}a, task: L{0}, suitability: 90, situation: {{V{0}: a}}}}\n"
+        "- {{behavior: r{0}b, task: R{0}, suitability: 90, situation: {{V{0}: b}}}}\n",
+        i);
+    if (i == 30) continue;
+    text += fmt::format(
+        "- {{behavior: l{0}b, task: L{0}, suitability: 80, situation: {{V{0}: b}}}}\n", i);
+  }
+  const CompiledCatalog catalog = compile_text(text);
+  CutSetOptions options;
+  int searches = 0;
+  options.on_progress = [&](const CutSetProgress& /*progress*/) { return ++searches < 1000; };
+  const CutSets found =
+      find_cut_sets(SituationSpace(catalog, {}, {}), task_id(catalog, "ALL"), options);
+  EXPECT_TRUE(found.complete);
+  EXPECT_EQ(show_sets(catalog, found), "{}");
+  EXPECT_GT(searches, 30) << "not hard enough";
+  EXPECT_LT(searches, 200);
+}
+
 /// Each pair of a hundred variables excludes one another but for one value: no situation is left.
 TEST(SituationSpace, DecidesManyExclusions) {
   std::string text = "situation:\n";

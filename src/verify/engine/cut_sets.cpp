@@ -46,6 +46,7 @@ class SupportSearch {
       : situations_(situations), search_(situations.catalog(), task, TaskSearch::Wanted::any) {
     const CompiledCatalog& catalog = situations.catalog();
     unavailable_.assign(catalog.behaviors.size(), false);
+    refuted_.assign(catalog.variables.size(), 0);
     const GroupId group = catalog.tasks[task].group;
     for (BehaviorId id = catalog.group_behaviors[group]; id < catalog.group_behaviors[group + 1];
          ++id) {
@@ -71,9 +72,12 @@ class SupportSearch {
       situation_ = std::move(*situation);
       return Answer::found;
     }
-    auto [inside, outside] = split(sets, fitting);
-    const Answer first = find_without(absent, inside, keep_on);
-    return first != Answer::impossible ? first : find_without(absent, outside, keep_on);
+    const Split split = choose_split(sets, fitting);
+    const Answer first = find_without(absent, part_of(sets, split, true), keep_on);
+    if (first != Answer::impossible) return first;
+    const Answer second = find_without(absent, part_of(sets, split, false), keep_on);
+    if (second == Answer::impossible) ++refuted_[split.variable];
+    return second;
   }
 
   // Of the assignment that was found:
@@ -89,42 +93,60 @@ class SupportSearch {
     for (const BehaviorId behavior : absent) ruled_out_[behavior] = true;
   }
 
-  /// The values of the sets with which an active behavior fits, as far as one variable goes, and
-  /// the others. `fitting`: those with which all active behaviors fit. A variable that has none of
-  /// these is what the behaviors disagree about, so it is taken first.
-  [[nodiscard]] std::pair<ValueSets, ValueSets> split(const ValueSets& sets,
-                                                      const ValueSets& fitting) const {
-    const CompiledCatalog& catalog = situations_.catalog();
-    std::pair<ValueSets, ValueSets> halves{sets, sets};
-    for (const bool only_disputed : {true, false}) {
-      for (const BehaviorId behavior : active_) {
-        ValueSets of_one = sets;
-        situations_.restrict(behavior, of_one);
-        for (const CompiledVariable& variable : catalog.variables) {
-          const auto begin = variable.first_value;
-          const auto end = begin + variable.value_count;
-          const auto is_same = [&](const ValueSets& a, const ValueSets& b) {
-            return std::equal(a.begin() + begin, a.begin() + end, b.begin() + begin);
-          };
-          const bool is_disputed =
-              std::find(fitting.begin() + begin, fitting.begin() + end, 1) == fitting.begin() + end;
-          if (is_same(of_one, sets) || (only_disputed && !is_disputed)) continue;
-          for (std::uint32_t value = begin; value < end; ++value) {
-            halves.first[value] = of_one[value];
-            halves.second[value] = sets[value] != 0 && of_one[value] == 0 ? 1 : 0;
-          }
-          return halves;
-        }
+  /// The condition of a behavior on a variable.
+  struct Split {
+    BehaviorId behavior;
+    std::uint32_t variable = 0;
+  };
+
+  /// A condition of an active behavior that some situation of the sets does not meet. `fitting`:
+  /// the values with which all active behaviors fit. A variable that has none of these is what the
+  /// behaviors disagree about, so it is taken first; of several that which refuted most, as what
+  /// cannot be settled is then met before all else has been tried.
+  [[nodiscard]] Split choose_split(const ValueSets& sets, const ValueSets& fitting) const {
+    Split best;
+    std::pair<bool, std::uint64_t> best_key;
+    bool has_best = false;
+    for (const BehaviorId behavior : active_) {
+      ValueSets of_one = sets;
+      situations_.restrict(behavior, of_one);
+      for (const FittingValue& condition : situations_.catalog().fitting_values_of(behavior)) {
+        const CompiledVariable& variable = situations_.catalog().variables[condition.variable];
+        const auto begin = variable.first_value;
+        const auto end = begin + variable.value_count;
+        if (std::equal(sets.begin() + begin, sets.begin() + end, of_one.begin() + begin)) continue;
+        const bool is_disputed =
+            std::find(fitting.begin() + begin, fitting.begin() + end, 1) == fitting.begin() + end;
+        const std::pair key(is_disputed, refuted_[condition.variable]);
+        if (has_best && key <= best_key) continue;
+        has_best = true;
+        best = {behavior, condition.variable};
+        best_key = key;
       }
     }
-    return halves;
+    return best;
+  }
+
+  /// The situations of the sets that meet the condition, or those that do not.
+  [[nodiscard]] ValueSets part_of(const ValueSets& sets, const Split& split, bool meets) const {
+    ValueSets of_one = sets;
+    situations_.restrict(split.behavior, of_one);
+    ValueSets part = sets;
+    const CompiledVariable& variable = situations_.catalog().variables[split.variable];
+    for (std::uint32_t value = variable.first_value;
+         value < variable.first_value + variable.value_count; ++value) {
+      if ((of_one[value] != 0) != meets) part[value] = 0;
+    }
+    return part;
   }
 
   const SituationSpace& situations_;
   TaskSearch search_;
   std::vector<bool> unavailable_;  ///< by BehaviorId: in every situation
   BehaviorSet conditional_;        ///< behaviors that fit in some situations only
-  std::vector<bool> ruled_out_;    ///< by BehaviorId
+  /// By variable: how often there was no assignment on either side of its condition.
+  std::vector<std::uint64_t> refuted_;
+  std::vector<bool> ruled_out_;  ///< by BehaviorId
   BehaviorSet active_;
   VariableValues situation_;
 };
