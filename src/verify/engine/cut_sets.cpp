@@ -220,30 +220,35 @@ class HittingSetTree {
   /// False if the search is stopped.
   [[nodiscard]] bool examine(const ItemSet& node, std::set<ItemSet>& children) {
     ++progress_.examined;
-    const ItemSet* support = known_.find_without(node);
-    if (support == nullptr) {
-      if (has_cut_set(node)) return true;
-      ++result_.searches;
-      const CutSet set = cut_set_of(node);
-      switch (search_.find_without(set.behaviors, sets_of(set), [this] { return keeps_on(); })) {
-        case SupportSearch::Answer::found:
-          support = &known_.add(items_of_support());
-          break;
-        case SupportSearch::Answer::impossible:
-          add_cut_set(node);
-          return true;
-        case SupportSearch::Answer::stopped:
-          return false;
-      }
+    if (const ItemSet* const known = known_.find_without(node)) {
+      add_children(node, *known, children);
+      return true;
     }
+    if (has_cut_set(node)) return true;
+    ++result_.searches;
+    const CutSet set = cut_set_of(node);
+    switch (search_.find_without(set.behaviors, sets_of(set), [this] { return keeps_on(); })) {
+      case SupportSearch::Answer::found:
+        add_children(node, known_.add(items_of_support()), children);
+        return true;
+      case SupportSearch::Answer::impossible:
+        add_cut_set(node);
+        return true;
+      case SupportSearch::Answer::stopped:
+        break;
+    }
+    return false;
+  }
+
+  void add_children(const ItemSet& node, const ItemSet& support,
+                    std::set<ItemSet>& children) const {
     const bool takes_behaviors = count_behaviors(node) < options_.order;
-    for (const Item item : *support) {
+    for (const Item item : support) {
       if (is_behavior(item) ? !takes_behaviors : !takes_value(node, item)) continue;
       ItemSet child = node;
       child.insert(std::lower_bound(child.begin(), child.end(), item), item);
       children.insert(std::move(child));
     }
-    return true;
   }
 
   /// Whether there is a situation with a value and those of the node.

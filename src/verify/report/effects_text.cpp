@@ -103,7 +103,7 @@ std::string title_of(const CompiledCatalog& catalog, const ReportedEffects& effe
 }
 
 std::string title_of(const CompiledCatalog& catalog, const TaskEffects& of) {
-  const std::string name = printable(catalog.name_of_task(of.task));
+  std::string name = printable(catalog.name_of_task(of.task));
   if (!of.best) return name;
   const BehaviorSet active = behaviors_of(catalog, of.task, *of.best);
   return fmt::format("{}: {} with {}", name,

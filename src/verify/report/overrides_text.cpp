@@ -72,6 +72,7 @@ std::vector<std::string> changes_in(const CompiledCatalog& catalog,
     }
   }
   std::vector<std::string> lines;
+  lines.reserve(found.size());
   for (const auto& [changes, priorities] : found) {
     lines.push_back(fmt::format("{} ({})", changes, priorities));
   }
