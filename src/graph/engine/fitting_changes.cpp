@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -43,6 +44,31 @@ class FittingBehaviors {
       }
     }
     return variables;
+  }
+
+  /// A behavior, a variable and a value in which it fits, by their names.
+  using Condition = std::array<std::string_view, 3>;
+  /// Of all behaviors of a task; a behavior without any has one of empty names.
+  [[nodiscard]] std::vector<Condition> conditions_of(TaskId task) const {
+    std::vector<Condition> conditions;
+    for (const Value& value : named_.catalog.values[task]) {
+      const std::string_view behavior = named_.behaviors[value.behavior];
+      conditions.push_back({behavior, {}, {}});
+      for (const FittingValue& fitting : named_.catalog.fitting_values_of(value.behavior)) {
+        conditions.push_back({behavior, named_.variables[fitting.variable],
+                              named_.catalog.name_of_value({fitting.variable, fitting.value})});
+      }
+    }
+    std::sort(conditions.begin(), conditions.end());
+    return conditions;
+  }
+  [[nodiscard]] std::vector<std::string_view> sorted_values_of(std::uint32_t variable) const {
+    std::vector<std::string_view> values;
+    for (std::uint32_t value = 0; value < named_.catalog.variables[variable].value_count; ++value) {
+      values.push_back(named_.catalog.name_of_value({variable, value}));
+    }
+    std::sort(values.begin(), values.end());
+    return values;
   }
 
   struct Performing {
@@ -128,12 +154,17 @@ std::vector<FittingChange> compare_fitting(const CompiledCatalog& before,
     const std::string_view name = after.name_of_task(task);
     const auto old_task = of_old.find_task(name);
     if (!old_task) continue;
+    const bool is_same = of_old.conditions_of(*old_task) == of_new.conditions_of(task);
     std::set<std::string_view> variables = of_new.variables_of(task);
     variables.merge(of_old.variables_of(*old_task));
     for (const std::string_view variable : variables) {
       const auto old_variable = of_old.find_variable(variable);
       const auto new_variable = of_new.find_variable(variable);
       if (!old_variable || !new_variable) continue;
+      if (is_same &&
+          of_old.sorted_values_of(*old_variable) == of_new.sorted_values_of(*new_variable)) {
+        continue;
+      }
       for (const std::string_view value : values_of(of_old, *old_variable, of_new, *new_variable)) {
         const Fitting was = of_old.of(*old_task, *old_variable, value);
         const Fitting is = of_new.of(task, *new_variable, value);
