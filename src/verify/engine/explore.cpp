@@ -1,41 +1,41 @@
-// What holds in all reachable states of some groups: explicit-state model checking of invariants
-// (G. J. Holzmann, "The SPIN Model Checker", 2003; "Handbook of Model Checking", edited by E. M.
-// Clarke, T. A. Henzinger, H. Veith and R. Bloem, 2018, chapter 5). The search of BreadthFirst
-// makes every move of every state once. A visitor notes the first state in which a task ran, a
-// start was refused, a property was violated; states are numbered breadth first, so the path to the
-// first is a shortest one.
+// What holds in all reachable states of some groups: model checking of invariants ("Handbook of
+// Model Checking", edited by E. M. Clarke, T. A. Henzinger, H. Veith and R. Bloem, 2018, chapter
+// 5). StateSpace goes by the number of moves, so where something is seen first, it is at the end of
+// a shortest path: a task runs, a start is refused, a property is violated.
 //
-// A depth-first search finds long counterexamples, and other ones for each number of threads. A
-// symbolic search (binary decision diagrams) or a bounded one (SAT) would need every decision as a
-// formula, but a decision is an optimum over all assignments: here the solver makes it, and
-// Decisions remembers it.
+// A depth-first search finds long counterexamples. A bounded search (SAT) would need every decision
+// as a formula, but a decision is an optimum over all assignments.
 
 #include "verify/engine/explore.h"
 
 #include <algorithm>
-#include <array>
-#include <deque>
+#include <atomic>
 #include <map>
+#include <mutex>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/report/words.h"
+#include "core/support/system.h"
 #include "runtime/base/text.h"
+#include "verify/engine/state_space.h"
 #include "verify/engine/stepper.h"
 
 namespace cbc {
 
 namespace {
 
-using Number = StateStore::Number;
-constexpr Number never_seen = UINT32_MAX;
+using Set = Environments::Set;
+using States = StateSpace::States;
+constexpr std::uint32_t never_seen = UINT32_MAX;
 
 /// A condition on the states of a model.
 class StateTest {
  public:
-  StateTest(const Model& model, const StateCondition& condition) {
+  StateTest(const Model& model, Environments& environments, const StateCondition& condition)
+      : environments_(environments) {
     for (const StateCondition::Running& running : condition.running) {
       const std::uint32_t task = model.find_task(running.task);
       if (running.behavior == none) {
@@ -56,35 +56,34 @@ class StateTest {
           model.find_behavior(behavior));
     }
     if (condition.only_active) add_others(model, condition.active);
-    for (const VariableValue& value : condition.situation.variables) {
-      add([](const Stepper& state,
-             Part part) { return state.value_of(part.subject) == part.wanted; },
-          model.find_variable(value.variable), value.value);
-    }
-    for (const SituationPart::Own& own : condition.situation.behaviors) {
-      add([](const Stepper& state,
-             Part part) { return state.is_denied(part.subject) == (part.wanted == 0); },
-          model.find_behavior(own.behavior), own.available ? 1 : 0);
-    }
-    for (const BehaviorId behavior : condition.faulty) {
-      add([](const Stepper& state, Part part) { return state.is_faulty(part.subject); },
-          model.find_behavior(behavior));
-    }
-    for (const BehaviorId behavior : condition.available) {
-      add([](const Stepper& state, Part part) { return state.is_available(part.subject); },
-          model.find_behavior(behavior));
-    }
     for (const StateCondition::Requested& requested : condition.requested) {
       add([](const Stepper& state,
              Part part) { return state.request_of(part.subject) >= part.wanted; },
           model.find_task(requested.task), model.rank_of(requested.priority) + 1U);
     }
+    for (const VariableValue& value : condition.situation.variables) {
+      add(environments.with_value(model.find_variable(value.variable), value.value));
+    }
+    for (const SituationPart::Own& own : condition.situation.behaviors) {
+      const Set denied = environments.denied(model.find_behavior(own.behavior));
+      add(own.available ? environments.sets().complement(denied) : denied);
+    }
+    for (const BehaviorId behavior : condition.faulty) {
+      add(environments.faulty(model.find_behavior(behavior)));
+    }
+    for (const BehaviorId behavior : condition.available) {
+      add(environments.available(model.find_behavior(behavior)));
+    }
   }
 
-  [[nodiscard]] bool holds(const Stepper& state) const {
-    return std::all_of(tests_.begin(), tests_.end(),
-                       [&](const Test& test) { return test.holds(state, test.part); });
+  /// The environments in which it holds, with the control that the stepper has loaded.
+  [[nodiscard]] Set holds_in(const Stepper& control) const {
+    const bool may_hold = std::all_of(tests_.begin(), tests_.end(), [&](const Test& test) {
+      return test.holds(control, test.part);
+    });
+    return may_hold ? in_environment_ : Diagrams::empty;
   }
+  [[nodiscard]] Set in_environment() const { return in_environment_; }
 
  private:
   struct Part {
@@ -98,6 +97,9 @@ class StateTest {
 
   void add(bool (*test)(const Stepper&, Part), std::uint32_t subject, std::uint32_t wanted = 0) {
     tests_.push_back({test, {subject, wanted}});
+  }
+  void add(Set environments) {
+    in_environment_ = environments_.sets().both(in_environment_, environments);
   }
   /// The behaviors that are not listed are not active.
   void add_others(const Model& model, const std::vector<BehaviorId>& listed) {
@@ -119,218 +121,208 @@ class StateTest {
     return none;
   }
 
-  std::vector<Test> tests_;
+  Environments& environments_;
+  std::vector<Test> tests_;  ///< of the control
+  Set in_environment_ = Diagrams::all;
 };
 
-/// A property on the states of a model.
+/// Looks for the first states that break a property or, of reachable, show it.
 class PropertyTest {
  public:
-  PropertyTest(const Model& model, const Property& property) : property_(property) {
+  PropertyTest(const Property& property, const Model& model, StateSpace& space)
+      : property_(property) {
     if (property.kind == Property::Kind::can_start) {
-      task_ = model.find_task(property.task);
-      ranks_ = model.ranks_up_to(property.priority);
+      trial_ = space.controls().find_start(model.find_task(property.task),
+                                           model.ranks_up_to(property.priority));
       return;
     }
-    condition_.emplace(model, property.condition);
-    if (property.when) when_.emplace(model, *property.when);
+    condition_.emplace(model, space.environments(), property.condition);
+    keep(space, condition_->in_environment());
+    if (!property.when) return;
+    when_.emplace(model, space.environments(), *property.when);
+    keep(space, when_->in_environment());
   }
 
-  /// Whether the state is a counterexample or, of reachable, a witness.
-  [[nodiscard]] bool is_met(Stepper& state) const {
-    if (property_.kind == Property::Kind::can_start) {
-      return state.cells()[task_] == 0 && !state.would_start(task_, ranks_);
+  void visit(const States& states, std::uint32_t depth, StateSpace& space) {
+    if (!condition_ || first_ < depth) return;
+    const Stepper& control = space.controls().stepper();
+    if (property_.settled && !control.is_settled()) return;
+    Diagrams& sets = space.environments().sets();
+    Set met = states.environments;
+    if (when_) met = sets.both(met, when_->holds_in(control));
+    const Set holds = condition_->holds_in(control);
+    met =
+        property_.kind == Property::Kind::always ? sets.without(met, holds) : sets.both(met, holds);
+    note({states.control, met}, depth, space);
+  }
+
+  /// Of states in which the task does not run.
+  void on_refusal(std::uint32_t action, const States& states, std::uint32_t depth,
+                  StateSpace& space) {
+    if (action == trial_ && first_ >= depth) note(states, depth, space);
+  }
+
+  [[nodiscard]] Verdict verdict(const CompiledCatalog& catalog, StateSpace& space) const {
+    Verdict verdict;
+    const bool is_reachable = property_.kind == Property::Kind::reachable;
+    if (first_ == never_seen) {
+      if (space.is_complete()) {
+        verdict.result = is_reachable ? Verdict::Result::violated : Verdict::Result::proved;
+      }
+      return verdict;
     }
-    if (property_.settled && !state.is_settled()) return false;
-    if (when_ && !when_->holds(state)) return false;
-    return condition_->holds(state) == (property_.kind != Property::Kind::always);
+    verdict.result = is_reachable ? Verdict::Result::proved : Verdict::Result::violated;
+    verdict.has_script = true;
+    verdict.script = space.path_to(met_, first_);
+    if (property_.kind == Property::Kind::can_start) {
+      const std::uint32_t index = catalog.tasks[property_.task].catalog_index;
+      verdict.script.push_back({Move::Kind::start, index, property_.priority});
+    }
+    return verdict;
   }
 
  private:
+  static void keep(StateSpace& space, Set set) { space.keep({0, set}); }
+  void note(const States& states, std::uint32_t depth, StateSpace& space) {
+    if (states.environments == Diagrams::empty) return;
+    first_ = depth;
+    if (met_.empty() || met_.back().control != states.control) {
+      met_.push_back({states.control, Diagrams::empty});
+    }
+    Set& known = met_.back().environments;
+    known = space.environments().sets().either(known, states.environments);
+    space.keep(met_.back());
+  }
+
   const Property& property_;
-  std::uint32_t task_ = none;
-  Model::Rank ranks_ = 0;
+  std::uint32_t trial_ = none;
   std::optional<StateTest> condition_;
   std::optional<StateTest> when_;
+  std::uint32_t first_ = never_seen;  ///< the depth
+  std::vector<States> met_;           ///< of that depth, one after the other by control
 };
 
-/// The lowest numbers of states in which something was seen.
-struct FirstSeen {
-  std::vector<Number> runs;           ///< by task
-  std::vector<Number> active;         ///< by behavior
-  std::vector<Number> start_refused;  ///< by task
-  std::vector<Number> together;       ///< by two tasks
-  std::vector<Number> decided;        ///< by property
-
-  std::array<std::vector<Number>*, 5> all() {
-    return {&runs, &active, &start_refused, &together, &decided};
-  }
-  /// Adds what another thread saw, and drops what was seen in this state and later ones.
-  void add(FirstSeen& other, Number end) {
-    for (std::size_t list = 0; list < all().size(); ++list) {
-      std::vector<Number>& mine = *all().at(list);
-      const std::vector<Number>& theirs = *other.all().at(list);
-      for (std::size_t place = 0; place < mine.size(); ++place) {
-        const Number first = std::min(mine[place], theirs[place]);
-        mine[place] = first < end ? first : never_seen;
-      }
-    }
-  }
-};
-
+/// Notes the least depth at which something was seen, and looks at properties.
 class PropertyVisitor {
  public:
-  PropertyVisitor(const Model& model, const std::vector<PropertyTest>& properties,
-                  const Stepper::Options& options)
-      : model_(model), properties_(properties), stepper_(model, options) {
-    const std::size_t tasks = model.tasks().size();
-    seen_.runs.assign(tasks, never_seen);
-    seen_.active.assign(model.behaviors().size(), never_seen);
-    seen_.start_refused.assign(tasks, never_seen);
-    seen_.together.assign(tasks * tasks, never_seen);
-    seen_.decided.assign(properties.size(), never_seen);
-    together_.assign(tasks * words_for(tasks), 0);
-    find_unasked_starts();
+  PropertyVisitor(const Model& model, StateSpace& space, std::vector<PropertyTest>& properties)
+      : model_(model),
+        space_(space),
+        properties_(properties),
+        runs_(model.tasks().size(), never_seen),
+        active_(model.behaviors().size(), never_seen),
+        start_refused_(model.tasks().size(), never_seen),
+        together_(model.tasks().size() * words_for(model.tasks().size()), 0) {
+    for (std::uint32_t task = 0; task < model.tasks().size(); ++task) {
+      if (!model.tasks()[task].start_on_request) continue;
+      const std::uint32_t trial = space.controls().find_start(task, model.ranks_up_to(1));
+      trials_.resize(space.controls().actions().size(), none);
+      trials_[trial] = task;
+    }
   }
 
-  [[nodiscard]] Stepper& system() { return stepper_; }
-  [[nodiscard]] bool is_done() const { return false; }
+  void visit(const States& states, std::uint32_t depth) {
+    depth_ = depth;
+    if (states.control >= is_known_.size()) is_known_.resize(space_.controls().size(), 0);
+    if (std::exchange(is_known_[states.control], std::uint8_t{1}) == 0) visit_control();
+    for (PropertyTest& property : properties_) property.visit(states, depth, space_);
+  }
 
-  void visit(Number number, Successors& successors) {
-    const auto& running = stepper_.running();
+  void on_refusal(std::uint32_t action, const States& states) {
+    const Controls& controls = space_.controls();
+    if (controls.stepper().cells()[controls.actions()[action].choice.subject] != 0) return;
+    if (action < trials_.size() && trials_[action] != none) note(start_refused_[trials_[action]]);
+    for (PropertyTest& property : properties_) {
+      property.on_refusal(action, states, depth_, space_);
+    }
+  }
+
+  void report(Exploration& result) const;
+
+ private:
+  struct Together {
+    std::uint32_t a = 0;
+    std::uint32_t b = 0;
+    std::uint32_t depth = 0;
+  };
+
+  void note(std::uint32_t& first) const { first = std::min(first, depth_); }
+
+  /// What is the same in all environments.
+  void visit_control() {
+    const Stepper& control = space_.controls().stepper();
+    const auto& running = control.running();
     const std::size_t words = running.size();
-    const std::size_t tasks = model_.tasks().size();
     for_each_bit(running.data(), words, [&](std::uint32_t task) {
-      note(seen_.runs[task], number);
+      note(runs_[task]);
       Word* const known = &together_[task * words];
       for (std::size_t word = 0; word < words; ++word) {
         Word fresh = running[word] & ~known[word];
         known[word] |= fresh;
         for (; fresh != 0; fresh &= fresh - 1) {
-          const auto other = word * 64 + static_cast<unsigned>(std::countr_zero(fresh));
-          seen_.together[task * tasks + other] = number;
+          const auto other = static_cast<std::uint32_t>(
+              word * 64 + static_cast<unsigned>(std::countr_zero(fresh)));
+          if (other != task) pairs_.push_back({task, other, depth_});
         }
       }
     });
-    for_each_bit(stepper_.active().data(), stepper_.active().size(),
-                 [&](std::uint32_t behavior) { note(seen_.active[behavior], number); });
-    for (const std::uint32_t task : unasked_) {
-      if (seen_.start_refused[task] != never_seen || stepper_.cells()[task] != 0) continue;
-      if (!successors.may_go_on()) return;
-      if (!stepper_.would_start(task, model_.ranks_up_to(1))) note_refusal(task, number);
-    }
-    for (std::size_t place = 0; place < properties_.size(); ++place) {
-      if (seen_.decided[place] == never_seen && properties_[place].is_met(stepper_)) {
-        seen_.decided[place] = number;
-      }
-    }
-  }
-
-  void on_move(Number number, const Model::Choice& choice, const std::uint32_t* /*successor*/) {
-    if (choice.move.kind == Move::Kind::start && choice.move.choice == 1 &&
-        !stepper_.was_accepted()) {
-      note_refusal(choice.subject, number);
-    }
-  }
-
-  [[nodiscard]] FirstSeen& seen() { return seen_; }
-  [[nodiscard]] const Decisions& decisions() const { return stepper_.decisions(); }
-
- private:
-  /// Tasks that start on request, but are not started with priority 1 by a move.
-  void find_unasked_starts() {
-    for (std::uint32_t task = 0; task < model_.tasks().size(); ++task) {
-      if (!model_.tasks()[task].start_on_request) continue;
-      const auto& moves = model_.moves();
-      const bool is_asked = std::any_of(moves.begin(), moves.end(), [&](const auto& choice) {
-        return choice.move.kind == Move::Kind::start && choice.subject == task &&
-               choice.move.choice == 1;
-      });
-      if (!is_asked) unasked_.push_back(task);
-    }
-  }
-
-  static void note(Number& first, Number number) {
-    if (first == never_seen) first = number;
-  }
-  void note_refusal(std::uint32_t task, Number number) {
-    if (stepper_.cells()[task] == 0 && model_.tasks()[task].start_on_request) {
-      note(seen_.start_refused[task], number);
-    }
+    for_each_bit(control.active().data(), control.active().size(),
+                 [&](std::uint32_t behavior) { note(active_[behavior]); });
   }
 
   const Model& model_;
-  const std::vector<PropertyTest>& properties_;
-  Stepper stepper_;
-  std::vector<std::uint32_t> unasked_;
-  FirstSeen seen_;
-  std::vector<Word> together_;  ///< by task: the tasks that were seen to run beside it
+  StateSpace& space_;
+  std::vector<PropertyTest>& properties_;
+  std::vector<std::uint32_t> trials_;  ///< by action: the task whose start is tried, or none
+  std::uint32_t depth_ = 0;
+  std::vector<std::uint8_t> is_known_;  ///< by control
+  std::vector<std::uint32_t> runs_;
+  std::vector<std::uint32_t> active_;
+  std::vector<std::uint32_t> start_refused_;
+  std::vector<Word> together_;   ///< by task: the tasks that were seen to run beside it
+  std::vector<Together> pairs_;  ///< each in both orders
 };
 
-void report_first_seen(const Model& model, const BreadthFirst& search, const FirstSeen& seen,
-                       Exploration& result) {
-  const CompiledCatalog& catalog = model.catalog();
+void PropertyVisitor::report(Exploration& result) const {
+  const CompiledCatalog& catalog = model_.catalog();
   const auto index_of = [&](std::uint32_t task) {
-    return catalog.tasks[model.tasks()[task].id].catalog_index;
+    return catalog.tasks[model_.tasks()[task].id].catalog_index;
   };
-  for (const std::uint32_t task : model.tasks_in_order()) {
-    if (seen.runs[task] != never_seen) {
-      result.runs.emplace_back(index_of(task), search.depth_of(seen.runs[task]));
-    }
-    if (seen.start_refused[task] != never_seen) {
-      result.start_refused.emplace_back(index_of(task), search.depth_of(seen.start_refused[task]));
+  for (const std::uint32_t task : model_.tasks_in_order()) {
+    if (runs_[task] != never_seen) result.runs.emplace_back(index_of(task), runs_[task]);
+    if (start_refused_[task] != never_seen) {
+      result.start_refused.emplace_back(index_of(task), start_refused_[task]);
     }
   }
-  for (const std::uint32_t behavior : model.behaviors_in_order()) {
-    if (seen.active[behavior] == never_seen) continue;
-    result.active.emplace_back(catalog.behaviors[model.behaviors()[behavior].id].catalog_index,
-                               search.depth_of(seen.active[behavior]));
+  for (const std::uint32_t behavior : model_.behaviors_in_order()) {
+    if (active_[behavior] == never_seen) continue;
+    result.active.emplace_back(catalog.behaviors[model_.behaviors()[behavior].id].catalog_index,
+                               active_[behavior]);
   }
-  const auto& tasks = model.tasks_in_order();
-  for (auto a = tasks.begin(); a != tasks.end(); ++a) {
-    for (auto b = a + 1; b != tasks.end(); ++b) {
-      const Number first = seen.together[*a * tasks.size() + *b];
-      if (first == never_seen) continue;
-      result.together.push_back({index_of(*a), index_of(*b), search.depth_of(first)});
-    }
+  for (const Together& pair : pairs_) {
+    const std::uint32_t a = index_of(pair.a);
+    const std::uint32_t b = index_of(pair.b);
+    if (a < b) result.together.push_back({a, b, pair.depth});
   }
-}
-
-Verdict verdict_of(const Model& model, const BreadthFirst& search, const Property& property,
-                   Number first, Stepper& stepper) {
-  Verdict verdict;
-  const bool is_reachable = property.kind == Property::Kind::reachable;
-  if (first == never_seen) {
-    if (search.is_complete()) {
-      verdict.result = is_reachable ? Verdict::Result::violated : Verdict::Result::proved;
-    }
-    return verdict;
-  }
-  verdict.result = is_reachable ? Verdict::Result::proved : Verdict::Result::violated;
-  verdict.has_script = true;
-  verdict.script = search.moves_to(stepper, first);
-  if (property.kind == Property::Kind::can_start) {
-    const std::uint32_t index = model.catalog().tasks[property.task].catalog_index;
-    verdict.script.push_back({Move::Kind::start, index, property.priority});
-  }
-  return verdict;
+  std::sort(result.together.begin(), result.together.end(),
+            [](const auto& a, const auto& b) { return std::pair(a.a, a.b) < std::pair(b.a, b.b); });
 }
 
 /// What the tables of pairs of tasks take, before any state is visited: in the model, the needs and
-/// the rivals; for each job, what was seen to run together, and where first.
-std::uint64_t bytes_of_pairs(const Model& model, unsigned jobs) {
+/// the rivals; and what was seen to run together.
+std::uint64_t bytes_of_pairs(const Model& model) {
   const std::uint64_t pairs = std::uint64_t{model.tasks().size()} * model.tasks().size();
-  return pairs / 4 + jobs * (pairs / 8 + pairs * sizeof(Number));
+  return pairs / 4 + pairs / 8;
 }
 
 /// Sets apart a quarter of the memory for remembered decisions.
-Stepper::Options share_memory(const ExplorationOptions& options, unsigned jobs,
-                              std::uint64_t& memory) {
+Stepper::Options share_memory(const ExplorationOptions& options, std::uint64_t& memory) {
   Stepper::Options result;
   result.reduce = options.reduce;
   constexpr std::uint64_t most = std::uint64_t{256} << 20;
-  result.decision_bytes = memory == 0 ? most : std::min(most, memory / 4 / jobs);
+  result.decision_bytes = memory == 0 ? most : std::min(most, memory / 4);
   // An array that grows takes twice its size for a while.
-  if (memory > 0) memory -= std::min(memory / 2, std::uint64_t{2} * jobs * result.decision_bytes);
+  if (memory > 0) memory -= std::min(memory / 2, 2 * result.decision_bytes);
   return result;
 }
 
@@ -391,45 +383,38 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& 
     result.verdicts.resize(properties.size());
     return result;
   }
-  const unsigned jobs = std::max(1U, options.jobs);
   ExplorationLimits limits = options.limits;
   if (std::uint64_t& memory = limits.max_memory; memory > 0) {
-    const std::uint64_t of_pairs = bytes_of_pairs(model, jobs);
+    const std::uint64_t of_pairs = bytes_of_pairs(model);
     if (of_pairs >= memory) return end_before_moves(ExplorationEnd::max_memory);
     memory -= of_pairs;
   }
-  std::vector<PropertyTest> tests;
-  tests.reserve(properties.size());
-  for (const Property* const property : properties) tests.emplace_back(model, *property);
-
-  const Stepper::Options of_steppers = share_memory(options, jobs, limits.max_memory);
-  BreadthFirst search(model.packed_first(), limits, [&](const ExplorationProgress& progress) {
+  const Stepper::Options of_stepper = share_memory(options, limits.max_memory);
+  StateSpace space(model, of_stepper, limits, [&](const ExplorationProgress& progress) {
     return !options.on_progress || options.on_progress(groups, progress);
   });
-  std::deque<PropertyVisitor> visitors;
-  while (visitors.size() < jobs) visitors.emplace_back(model, tests, of_steppers);
-  search.run(visitors);
+  std::vector<PropertyTest> tests;
+  tests.reserve(properties.size());
+  for (const Property* const property : properties) tests.emplace_back(*property, model, space);
+  PropertyVisitor visitor(model, space, tests);
+  space.run(visitor);
 
-  FirstSeen& seen = visitors.front().seen();
-  for (PropertyVisitor& visitor : visitors) {
-    // Of a batch that a limit cut short, some threads have seen more than others.
-    seen.add(visitor.seen(), search.expanded());
-    result.decisions_remembered += visitor.decisions().remembered();
-    result.decisions_computed += visitor.decisions().computed();
-  }
-  result.complete = search.is_complete();
+  const Decisions& decisions = space.controls().stepper().decisions();
+  result.decisions_remembered = decisions.remembered();
+  result.decisions_computed = decisions.computed();
+  result.complete = space.is_complete();
   result.reduced = options.reduce;
-  if (!result.complete) result.end = search.end();
-  result.states = search.store().size();
-  result.transitions = search.transitions();
-  result.depth = search.expanded_depth();
-  result.states_at_depth = search.states_at_depth();
-  result.bytes = search.store().bytes();
-  report_first_seen(model, search, seen, result);
-  for (std::size_t place = 0; place < properties.size(); ++place) {
-    result.verdicts.push_back(verdict_of(model, search, *properties[place], seen.decided[place],
-                                         visitors.front().system()));
-  }
+  if (!result.complete) result.end = space.end();
+  result.states = space.states();
+  result.transitions = space.transitions();
+  result.depth = space.expanded_depth();
+  result.states_at_depth = space.states_at_depth();
+  result.bytes = space.bytes();
+  result.controls = space.controls().size();
+  result.regions = space.controls().regions();
+  result.diagram_nodes = space.environments().sets().nodes();
+  visitor.report(result);
+  for (const PropertyTest& test : tests) result.verdicts.push_back(test.verdict(catalog, space));
   return result;
 }
 
@@ -456,15 +441,44 @@ PropertyScope scope_of(const CompiledCatalog& catalog, const Property& property)
 
 namespace {
 
+/// What one exploration is about.
+struct ExplorationTask {
+  std::vector<GroupId> groups;
+  std::vector<const Property*> properties;
+};
+
+/// Several explorations, up to `jobs` at a time.
+std::vector<Exploration> explore_all(const CompiledCatalog& catalog, const Assumptions& assumptions,
+                                     const std::vector<ExplorationTask>& tasks,
+                                     const ExplorationOptions& options) {
+  std::vector<Exploration> explorations(tasks.size());
+  std::mutex telling;
+  ExplorationOptions each = options;
+  if (options.on_progress) {
+    each.on_progress = [&](const std::vector<GroupId>& groups,
+                           const ExplorationProgress& progress) {
+      const std::lock_guard lock(telling);
+      return options.on_progress(groups, progress);
+    };
+  }
+  std::atomic<std::size_t> next{0};
+  run_in_threads(
+      std::clamp<std::size_t>(tasks.size(), 1, std::max(1U, options.jobs)), [&](std::size_t) {
+        for (std::size_t place = next++; place < tasks.size(); place = next++) {
+          explorations[place] =
+              explore(catalog, tasks[place].groups, assumptions, tasks[place].properties, each);
+        }
+      });
+  return explorations;
+}
+
 std::vector<Exploration> explore_groups(const CompiledCatalog& catalog,
                                         const Assumptions& assumptions,
                                         const ExplorationOptions& options) {
-  std::vector<Exploration> explorations;
-  for (GroupId group(0); group < catalog.group_count(); ++group) {
-    const std::vector<GroupId> groups{group};
-    explorations.push_back(explore(catalog, groups, assumptions, {}, options));
-  }
-  return explorations;
+  std::vector<ExplorationTask> tasks;
+  tasks.reserve(catalog.group_count());
+  for (GroupId group(0); group < catalog.group_count(); ++group) tasks.push_back({{group}, {}});
+  return explore_all(catalog, assumptions, tasks, options);
 }
 
 }  // namespace
@@ -488,26 +502,30 @@ Verification verify_properties(const CompiledCatalog& catalog, const PropertyFil
   for (std::size_t place = 0; place < file.properties.size(); ++place) {
     by_scope[scope_of(catalog, file.properties[place])].push_back(place);
   }
+  std::vector<ExplorationTask> tasks;
   for (const auto& [scope, places] : by_scope) {
-    std::vector<const Property*> properties;
-    for (const std::size_t place : places) properties.push_back(&file.properties[place]);
-    const std::vector<GroupId>& explored = scope.groups;
-    result.explorations.push_back(
-        explore(catalog, explored, file.assumptions, properties, options));
-    const Exploration& exploration = result.explorations.back();
+    ExplorationTask& task = tasks.emplace_back();
+    task.groups = scope.groups;
+    for (const std::size_t place : places) task.properties.push_back(&file.properties[place]);
+  }
+  result.explorations = explore_all(catalog, file.assumptions, tasks, options);
+  std::size_t explored = 0;
+  for (const auto& [scope, places] : by_scope) {
+    const Exploration& exploration = result.explorations[explored];
     for (std::size_t number = 0; number < places.size(); ++number) {
       Answer& answer = result.answers[places[number]];
-      answer.property = properties[number];
-      answer.exploration = result.explorations.size() - 1;
+      answer.property = tasks[explored].properties[number];
+      answer.exploration = explored;
       answer.verdict = exploration.verdicts[number];
       if (!answer.verdict.has_script) continue;
       const bool is_witness = answer.verdict.result == Verdict::Result::proved;
       const std::string comment = fmt::format("{}: {}\nRun it with: cbc solve CATALOG FILE\n",
                                               is_witness ? "Witness" : "Counterexample",
                                               title_of(catalog, file, *answer.property));
-      answer.witness = make_witness(catalog, explored, file.assumptions, answer.verdict.script,
+      answer.witness = make_witness(catalog, scope.groups, file.assumptions, answer.verdict.script,
                                     answer.property, comment);
     }
+    ++explored;
   }
   return result;
 }

@@ -22,7 +22,7 @@ namespace cbc {
 
 struct ExplorationOptions {
   ExplorationLimits limits;  ///< of each exploration
-  unsigned jobs = 1;
+  unsigned jobs = 1;         ///< explorations at a time; of a comparison, threads
   /// Takes states for the same that differ only in the order of requests of equal priority that
   /// cannot interact (Model::interaction_classes). They have the same moves, to the same states in
   /// this sense: verdicts, scripts and least numbers of moves stay as they are, and only the counts
@@ -73,7 +73,10 @@ struct Exploration {
   /// Of start, stop and finish events: how many answers were looked up, how many computed.
   std::uint64_t decisions_remembered = 0;
   std::uint64_t decisions_computed = 0;
-  std::uint64_t bytes = 0;  ///< of states and their index
+  std::uint64_t controls = 0;
+  std::uint64_t regions = 0;        ///< of environments that a move takes alike, of all controls
+  std::uint64_t diagram_nodes = 0;  ///< of the sets of environments
+  std::uint64_t bytes = 0;          ///< of all this
 };
 
 /// Visits every reachable state of the groups. Same results for any number of jobs. `properties`

@@ -206,6 +206,9 @@ class Model {
   /// Why no state can be explored, if so: `never` excludes the first one, or a number is too large
   /// for a cell. Then this model must not be used for anything else.
   [[nodiscard]] std::optional<std::string> find_obstacle() const;
+  /// An entry of `never`, as cells that have values.
+  using Excluded = std::vector<std::pair<std::uint32_t, std::uint16_t>>;
+  [[nodiscard]] const std::vector<Excluded>& excluded() const { return excluded_; }
   /// Whether `never` excludes the situation of these cells.
   [[nodiscard]] bool is_excluded(const std::uint16_t* cells) const;
 
@@ -224,9 +227,6 @@ class Model {
   void add_moves();
   void add_never();
   [[nodiscard]] std::uint32_t most_requests() const;
-
-  /// An entry of `never`, as cells that have values.
-  using Excluded = std::vector<std::pair<std::uint32_t, std::uint16_t>>;
 
   const CompiledCatalog& catalog_;
   const Assumptions& assumptions_;

@@ -25,10 +25,10 @@ Stepper::Stepper(const Model& model, const Options& options)
   before_.values.resize(values);
   before_.running.resize(tasks);
   before_.active.resize(behaviors);
-  before_.fitting.resize(behaviors);
-  before_.available.resize(behaviors);
-  before_.available_values.resize(values);
-  before_.fitting_values.resize(values);
+  before_.possible.fitting.resize(behaviors);
+  before_.possible.available.resize(behaviors);
+  before_.possible.available_values.resize(values);
+  before_.possible.fitting_values.resize(values);
   excluded_values_.resize(values);
   domains_.resize(values);
   present_.resize(values);
@@ -57,6 +57,11 @@ void Stepper::load(const std::uint32_t* packed) {
   derive(before_, true);
 }
 
+void Stepper::load_control(const std::uint32_t* packed) {
+  model_.unpack(packed, before_.cells.data());
+  derive(before_, false);
+}
+
 void Stepper::derive(State& state, bool situation_too) const {
   std::fill(state.values.begin(), state.values.end(), 0);
   std::fill(state.running.begin(), state.running.end(), 0);
@@ -74,22 +79,25 @@ void Stepper::derive(State& state, bool situation_too) const {
 }
 
 void Stepper::derive_situation(State& state) const {
-  std::fill(state.fitting.begin(), state.fitting.end(), ~Word{0});
+  Possible& possible = state.possible;
+  std::fill(possible.fitting.begin(), possible.fitting.end(), ~Word{0});
   for (std::uint32_t place = 0; place < model_.variables().size(); ++place) {
     const auto& misfits = model_.variables()[place].misfits[value_of(state, place)];
-    for (std::size_t word = 0; word < misfits.size(); ++word) state.fitting[word] &= ~misfits[word];
+    for (std::size_t word = 0; word < misfits.size(); ++word)
+      possible.fitting[word] &= ~misfits[word];
   }
   const auto& behaviors = model_.behaviors();
-  std::fill(state.available_values.begin(), state.available_values.end(), 0);
-  std::fill(state.fitting_values.begin(), state.fitting_values.end(), 0);
+  std::fill(possible.available_values.begin(), possible.available_values.end(), 0);
+  std::fill(possible.fitting_values.begin(), possible.fitting_values.end(), 0);
   for (std::uint32_t place = 0; place < behaviors.size(); ++place) {
-    const bool fits = has_bit(state.fitting.data(), place);
+    const bool fits = has_bit(possible.fitting.data(), place);
     const bool available = fits && !is_denied(state, place);
-    available ? set_bit(state.available.data(), place) : clear_bit(state.available.data(), place);
+    available ? set_bit(possible.available.data(), place)
+              : clear_bit(possible.available.data(), place);
     if (!fits) continue;
     for (const std::uint32_t value : behaviors[place].values) {
-      set_bit(state.fitting_values.data(), value);
-      if (available) set_bit(state.available_values.data(), value);
+      set_bit(possible.fitting_values.data(), value);
+      if (available) set_bit(possible.available_values.data(), value);
     }
   }
 }
@@ -123,7 +131,7 @@ bool Stepper::is_settled() const {
 
 // Moves.
 
-bool Stepper::has_move(const Model::Choice& choice) const {
+bool Stepper::may_have_move(const Model::Choice& choice) const {
   const std::uint32_t subject = choice.subject;
   const bool is_active = choice.move.kind > Move::Kind::stop &&
                          choice.move.kind < Move::Kind::fault &&
@@ -143,9 +151,20 @@ bool Stepper::has_move(const Model::Choice& choice) const {
       });
     }
     case Move::Kind::failure:
-      return is_active;
     case Move::Kind::situation_change:
-      return is_active && is_denied(subject);
+      return is_active;
+    case Move::Kind::due:
+      return !is_settled();
+    default:
+      return true;
+  }
+}
+
+bool Stepper::has_move(const Model::Choice& choice) const {
+  const std::uint32_t subject = choice.subject;
+  switch (choice.move.kind) {
+    case Move::Kind::situation_change:
+      return may_have_move(choice) && is_denied(subject);
     case Move::Kind::fault: {
       if (is_faulty(subject)) return false;
       const Model::Layout& layout = model_.layout();
@@ -157,18 +176,53 @@ bool Stepper::has_move(const Model::Choice& choice) const {
       return is_faulty(subject);
     case Move::Kind::variable:
       return value_of(subject) != choice.choice;
-    case Move::Kind::own:
-      return true;
-    case Move::Kind::due:
-      return !is_settled();
+    default:
+      return may_have_move(choice);
   }
-  return false;
 }
 
 bool Stepper::take(const Model::Choice& choice) {
   now_ = before_;
   accepted_ = false;
   const Model::Layout& layout = model_.layout();
+  const std::uint32_t subject = choice.subject;
+  switch (choice.move.kind) {
+    case Move::Kind::fault:
+      now_.cells[layout.faulty + subject] = 1;
+      break;
+    case Move::Kind::repair:
+      now_.cells[layout.faulty + subject] = 0;
+      break;
+    case Move::Kind::variable:
+      if (!change_situation(model_.variables()[subject].cell,
+                            static_cast<std::uint16_t>(choice.choice))) {
+        return false;
+      }
+      break;
+    case Move::Kind::own: {
+      const std::uint32_t cell = layout.own + model_.behaviors()[subject].own;
+      if (!change_situation(cell, now_.cells[cell] == 0 ? 1 : 0)) return false;
+      break;
+    }
+    default:
+      break;
+  }
+  make(choice);
+  return true;
+}
+
+void Stepper::take_control(const Model::Choice& choice, const Possible& possible,
+                           EnvironmentOracle& environment) {
+  now_ = before_;
+  now_.possible = possible;
+  accepted_ = false;
+  environment_ = &environment;
+  make(choice);
+  environment_ = nullptr;
+}
+
+/// What comes of a move in the environment that it leads to.
+void Stepper::make(const Model::Choice& choice) {
   const std::uint32_t subject = choice.subject;
   switch (choice.move.kind) {
     case Move::Kind::start: {
@@ -189,26 +243,17 @@ bool Stepper::take(const Model::Choice& choice) {
       finish(subject, FinishCause::situation_change, Origin::script);
       break;
     case Move::Kind::fault:
-      now_.cells[layout.faulty + subject] = 1;
       break;
     case Move::Kind::repair:
-      now_.cells[layout.faulty + subject] = 0;
       for (const std::uint32_t reactive :
            model_.groups()[model_.behaviors()[subject].group].reactive) {
         enqueue(reactive);
       }
       break;
     case Move::Kind::variable:
-      if (!change_situation(model_.variables()[subject].cell,
-                            static_cast<std::uint16_t>(choice.choice))) {
-        return false;
-      }
+    case Move::Kind::own:
+      adapt();
       break;
-    case Move::Kind::own: {
-      const std::uint32_t cell = layout.own + model_.behaviors()[subject].own;
-      if (!change_situation(cell, now_.cells[cell] == 0 ? 1 : 0)) return false;
-      break;
-    }
     case Move::Kind::due:
       come_due();
       break;
@@ -216,7 +261,6 @@ bool Stepper::take(const Model::Choice& choice) {
   close_event();
   settle_queue();
   if (reduce_) merge_orders();
-  return true;
 }
 
 void Stepper::stay(bool is_situation) {
@@ -297,11 +341,11 @@ void Stepper::start_reactive(std::uint32_t reactive) {
   now_.cells[layout.queue + reactive] = 0;
   std::uint16_t& waits = now_.cells[layout.waiting + reactive];
   const BitRange values = model_.tasks()[task].values;
-  bool may_start = !has_bit(now_.running.data(), task) && !excludes_running_task(task);
-  if (may_start) {
-    may_start = false;
-    for (std::uint32_t value = values.begin; value < values.end; ++value) {
-      if (has_bit(now_.available_values.data(), value)) may_start = true;
+  bool may_start = false;
+  if (!has_bit(now_.running.data(), task) && !excludes_running_task(task)) {
+    for (std::uint32_t value = values.begin; value < values.end && !may_start; ++value) {
+      may_start = has_bit(now_.possible.available_values.data(), value) &&
+                  is_available_now(model_.behavior_of(value));
     }
   }
   if (!may_start) {
@@ -324,21 +368,67 @@ bool Stepper::change_situation(std::uint32_t cell, std::uint16_t value) {
   now_.cells[cell] = value;
   if (model_.is_excluded(now_.cells.data())) return false;
   derive_situation(now_);
+  return true;
+}
+
+/// What follows a change of the situation.
+void Stepper::adapt() {
   open_event(Verb::situation, Origin::script, none);
-  for (const auto& group : model_.groups()) {
-    for (std::uint32_t place = group.behaviors.begin; place < group.behaviors.end; ++place) {
-      if (!has_bit(now_.available.data(), place) || has_bit(before_.available.data(), place)) {
-        continue;
-      }
-      for (const std::uint32_t reactive : group.reactive) enqueue(reactive);
-      break;
-    }
+  for (std::uint32_t group = 0; group < model_.groups().size(); ++group) {
+    const auto& reactive = model_.groups()[group].reactive;
+    const bool matters = std::any_of(reactive.begin(), reactive.end(),
+                                     [&](std::uint32_t one) { return may_enqueue(one); });
+    if (!matters || !gains(group)) continue;
+    for (const std::uint32_t one : reactive) enqueue(one);
   }
   for (const std::uint32_t behavior : model_.behaviors_in_order()) {
-    if (!has_bit(now_.active.data(), behavior) || has_bit(now_.fitting.data(), behavior)) continue;
+    if (!has_bit(now_.active.data(), behavior) || fits(behavior)) continue;
     finish(behavior, FinishCause::situation_change, Origin::situation);
   }
-  return true;
+}
+
+// The environment.
+
+bool Stepper::fits(std::uint32_t behavior) {
+  using Kind = EnvironmentQuery::Kind;
+  Possible& possible = now_.possible;
+  if (!has_bit(possible.fitting.data(), behavior)) return false;
+  if (environment_ == nullptr || environment_->holds({Kind::fits, behavior})) return true;
+  clear_bit(possible.fitting.data(), behavior);
+  clear_bit(possible.available.data(), behavior);
+  for (const std::uint32_t value : model_.behaviors()[behavior].values) {
+    clear_bit(possible.fitting_values.data(), value);
+    clear_bit(possible.available_values.data(), value);
+  }
+  return false;
+}
+
+bool Stepper::is_available_now(std::uint32_t behavior) {
+  using Kind = EnvironmentQuery::Kind;
+  Possible& possible = now_.possible;
+  if (!has_bit(possible.available.data(), behavior)) return false;
+  if (environment_ == nullptr || environment_->holds({Kind::available, behavior})) return true;
+  clear_bit(possible.available.data(), behavior);
+  for (const std::uint32_t value : model_.behaviors()[behavior].values) {
+    clear_bit(possible.available_values.data(), value);
+  }
+  return false;
+}
+
+bool Stepper::is_faulty_now(std::uint32_t behavior) const {
+  if (model_.layout().faulty_count == 0) return false;
+  return environment_ != nullptr ? environment_->holds({EnvironmentQuery::Kind::faulty, behavior})
+                                 : now_.cells[model_.layout().faulty + behavior] != 0;
+}
+
+/// Whether a behavior of the group has become available.
+bool Stepper::gains(std::uint32_t group) const {
+  if (environment_ != nullptr) return environment_->holds({EnvironmentQuery::Kind::gains, group});
+  const BitRange behaviors = model_.groups()[group].behaviors;
+  for (std::uint32_t behavior = behaviors.begin; behavior < behaviors.end; ++behavior) {
+    if (has_bit(now_.possible.available.data(), behavior) && !is_available(behavior)) return true;
+  }
+  return false;
 }
 
 /// The first set of the queue: its tasks one after the other in catalog order, as far as they are

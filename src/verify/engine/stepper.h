@@ -32,8 +32,32 @@ struct MoveTrace {
   std::vector<Happening> events;
 };
 
+/// What a move may ask about the environment that it leads to: the situation, and what is faulty.
+struct EnvironmentQuery {
+  enum class Kind : std::uint8_t {
+    fits,       ///< the behavior
+    available,  ///< the behavior
+    faulty,     ///< the behavior
+    gains       ///< a behavior of the group (its place in Model::groups) has become available
+  };
+  Kind kind = Kind::fits;
+  std::uint32_t subject = 0;
+};
+
+/// Stands for the environment where it is not part of a state.
+class EnvironmentOracle {
+ public:
+  virtual ~EnvironmentOracle() = default;
+  [[nodiscard]] virtual bool holds(EnvironmentQuery query) = 0;
+};
+
 /// Takes a state from one move to the next (docs/verify.md, "Moves"): the coordinator's events on
 /// packed states, without records. Not for use by several threads.
+///
+/// Or only its control: all but the environment, which is asked about where a decision depends on
+/// it. A decision is first made as if all were available that is not known to be unavailable. If
+/// what it uses is available, it is the decision: the best of more choices is the best of fewer
+/// that it is one of, and where more have no solution, fewer have none.
 class Stepper {
  public:
   struct Options {
@@ -63,6 +87,22 @@ class Stepper {
     return move;
   }
   [[nodiscard]] bool was_accepted() const { return accepted_; }
+  /// Which behaviors fit or are available in some environment, and the values that they perform.
+  struct Possible {
+    std::vector<Word> fitting;    ///< behaviors
+    std::vector<Word> available;  ///< behaviors
+    std::vector<Word> fitting_values;
+    std::vector<Word> available_values;
+  };
+  /// Takes up a control.
+  void load_control(const std::uint32_t* packed);
+  /// Whether a control has this move in some environment.
+  [[nodiscard]] bool may_have_move(const Model::Choice& choice) const;
+  /// Makes a move from the control that load took up, of which the environment cells do not count;
+  /// of a repair what comes of it besides. `possible`: after the move.
+  void take_control(const Model::Choice& choice, const Possible& possible,
+                    EnvironmentOracle& environment);
+
   /// Instead of a move: leaves the state as it is. `is_situation`: by a change of the situation
   /// that is not about the model.
   void stay(bool is_situation);
@@ -89,7 +129,7 @@ class Stepper {
   [[nodiscard]] const std::vector<Word>& active() const { return before_.active; }
   [[nodiscard]] const std::vector<Word>& values() const { return before_.values; }
   [[nodiscard]] bool is_available(std::uint32_t behavior) const {
-    return has_bit(before_.available.data(), behavior);
+    return has_bit(before_.possible.available.data(), behavior);
   }
   [[nodiscard]] bool is_faulty(std::uint32_t behavior) const {
     return model_.layout().faulty_count > 0 && cells()[model_.layout().faulty + behavior] != 0;
@@ -111,13 +151,10 @@ class Stepper {
   /// A state: its cells, and bit sets that follow from them.
   struct State {
     std::vector<std::uint16_t> cells;
-    std::vector<Word> values;     ///< that tasks have
-    std::vector<Word> running;    ///< tasks
-    std::vector<Word> active;     ///< behaviors
-    std::vector<Word> fitting;    ///< behaviors
-    std::vector<Word> available;  ///< behaviors
-    std::vector<Word> available_values;
-    std::vector<Word> fitting_values;
+    std::vector<Word> values;   ///< that tasks have
+    std::vector<Word> running;  ///< tasks
+    std::vector<Word> active;   ///< behaviors
+    Possible possible;          ///< in its environment, or what is not known to be impossible
   };
   struct Trigger {
     enum class Kind : std::uint8_t { start, stop, finish };
@@ -144,6 +181,13 @@ class Stepper {
   [[nodiscard]] const Word* solve(const Trigger& trigger, Model::Rank first_ranks);
   [[nodiscard]] const Word* ask(const Trigger& trigger, Model::Rank ranks);
   void find_domains(const Trigger& trigger);
+  [[nodiscard]] bool is_possible(const Trigger& trigger, const Word* solution);
+  [[nodiscard]] bool has_known_order(const Trigger& trigger, const Word* solution);
+  [[nodiscard]] bool may_have(const Trigger& trigger, std::uint32_t value);
+  [[nodiscard]] bool fits(std::uint32_t behavior);
+  [[nodiscard]] bool is_available_now(std::uint32_t behavior);
+  [[nodiscard]] bool is_faulty_now(std::uint32_t behavior) const;
+  [[nodiscard]] bool gains(std::uint32_t group) const;
   void rank_requests(const Trigger& trigger);
   [[nodiscard]] bool has_finished(const Trigger& trigger, std::uint32_t task) const {
     if (trigger.kind != Trigger::Kind::finish || now_.cells[task] == 0) return false;
@@ -158,6 +202,7 @@ class Stepper {
   void update_requests(const Trigger& trigger);
   void update_queue(const Trigger& trigger);
   void retry_waiting(std::uint32_t group);
+  [[nodiscard]] bool may_enqueue(std::uint32_t reactive) const;
   void enqueue(std::uint32_t reactive);
   [[nodiscard]] bool excludes_running_task(std::uint32_t task) const;
 
@@ -167,6 +212,8 @@ class Stepper {
   void finish_lost();
   void start_reactive(std::uint32_t reactive);
   bool change_situation(std::uint32_t cell, std::uint16_t value);
+  void adapt();
+  void make(const Model::Choice& choice);
   void come_due();
   void settle_queue();
   void merge_orders();
@@ -203,6 +250,7 @@ class Stepper {
 
   std::vector<std::vector<std::uint32_t>> deactivation_order_;  ///< by group
   MoveTrace* trace_ = nullptr;
+  EnvironmentOracle* environment_ = nullptr;  ///< null: the state has it
 };
 
 }  // namespace cbc

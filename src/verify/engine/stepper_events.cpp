@@ -90,12 +90,11 @@ bool Stepper::coordinate(const Trigger& trigger) {
 /// The first behavior that has to be activated and cannot be, as it is faulty; or none.
 std::uint32_t Stepper::first_failure() const {
   if (model_.layout().faulty_count == 0) return none;
-  const std::uint16_t* const faulty = now_.cells.data() + model_.layout().faulty;
   for (std::size_t word = 0; word < wanted_.size(); ++word) {
     for (Word bits = wanted_[word] & ~active_[word]; bits != 0; bits &= bits - 1) {
       const auto behavior =
           static_cast<std::uint32_t>(word * 64 + static_cast<unsigned>(std::countr_zero(bits)));
-      if (faulty[behavior] != 0) return behavior;
+      if (is_faulty_now(behavior)) return behavior;
     }
   }
   return none;
@@ -113,6 +112,10 @@ const Word* Stepper::solve(const Trigger& trigger, Model::Rank first_ranks) {
   Model::Rank ranks = first_ranks;
   for (;;) {
     const Word* const solution = ask(trigger, ranks);
+    if (solution != nullptr && !is_possible(trigger, solution)) {
+      find_domains(trigger);
+      continue;
+    }
     if (solution != nullptr || trigger.kind != Trigger::Kind::finish) return solution;
     Model::Rank next = 0;
     const BitRange tasks = model_.groups()[trigger.group].tasks;
@@ -152,16 +155,64 @@ const Word* Stepper::ask(const Trigger& trigger, Model::Rank ranks) {
   return decisions_.find(question);
 }
 
+/// Whether all that the answer uses is possible; if not, the domains have changed.
+bool Stepper::is_possible(const Trigger& trigger, const Word* solution) {
+  if (environment_ == nullptr) return true;
+  for (std::size_t word = 0; word < present_.size(); ++word) {
+    for (Word bits = solution[word]; bits != 0; bits &= bits - 1) {
+      const auto value =
+          static_cast<std::uint32_t>(word * 64 + static_cast<unsigned>(std::countr_zero(bits)));
+      if (!may_have(trigger, value)) return false;
+    }
+  }
+  return has_known_order(trigger, solution);
+}
+
+/// Whether a value of the domain is in it.
+bool Stepper::may_have(const Trigger& trigger, std::uint32_t value) {
+  const std::uint32_t behavior = model_.behavior_of(value);
+  const bool is_kept = has_bit(present_.data(), value) &&
+                       (trigger.kind != Trigger::Kind::finish || behavior != trigger.behavior);
+  return is_kept ? fits(behavior) : is_available_now(behavior);
+}
+
+/// The canonical order of the values of a task that runs depends on whether one of the domain suits
+/// it better than the present one (docs/semantics.md, "Objectives"). False: none does, where one
+/// seemed to.
+bool Stepper::has_known_order(const Trigger& trigger, const Word* solution) {
+  const Model::Group& group = model_.groups()[trigger.group];
+  for (std::uint32_t task = group.tasks.begin; task < group.tasks.end; ++task) {
+    if (now_.cells[task] == 0) continue;
+    const BitRange values = model_.tasks()[task].values;
+    const auto& costs = model_.catalog().values[model_.tasks()[task].id];
+    const std::uint32_t present = values.begin + now_.cells[task] - 1;
+    if (!has_bit(domains_.data(), present)) continue;
+    bool seemed_better = false;
+    bool is_better = false;
+    for (std::uint32_t value = values.begin; value < present && !is_better; ++value) {
+      if (!has_bit(domains_.data(), value) ||
+          costs[value - values.begin].suitability == costs[present - values.begin].suitability) {
+        continue;
+      }
+      seemed_better = true;
+      is_better = has_bit(solution, value) || may_have(trigger, value);
+    }
+    if (seemed_better && !is_better) return false;
+  }
+  return true;
+}
+
 void Stepper::find_domains(const Trigger& trigger) {
   const Model::Group& group = model_.groups()[trigger.group];
-  copy_range(now_.available_values.data(), domains_, group.values);
+  const Possible& possible = now_.possible;
+  copy_range(possible.available_values.data(), domains_, group.values);
   for (std::size_t word = 0; word < domains_.size(); ++word) {
-    domains_[word] |= present_[word] & now_.fitting_values[word];
+    domains_[word] |= present_[word] & possible.fitting_values[word];
   }
   if (trigger.kind == Trigger::Kind::finish) {
     // The behavior that has finished may be kept only if it is available.
     for (const std::uint32_t value : model_.behaviors()[trigger.behavior].values) {
-      if (has_bit(present_.data(), value) && !has_bit(now_.available_values.data(), value)) {
+      if (has_bit(present_.data(), value) && !has_bit(possible.available_values.data(), value)) {
         clear_bit(domains_.data(), value);
       }
     }
@@ -211,10 +262,9 @@ void Stepper::rank_requests(const Trigger& trigger) {
 void Stepper::reject(const Trigger& trigger) {
   note_outcome(Outcome::rejected);
   if (model_.layout().faulty_count > 0) {
-    const std::uint16_t* const faulty = now_.cells.data() + model_.layout().faulty;
     if (trace_ != nullptr) note_changes(was_active_.data(), trigger.group, none);
     for_each_bit(was_active_.data(), was_active_.size(), [&](std::uint32_t behavior) {
-      if (!has_bit(active_.data(), behavior) && faulty[behavior] != 0) lost_.push_back(behavior);
+      if (!has_bit(active_.data(), behavior) && is_faulty_now(behavior)) lost_.push_back(behavior);
     });
     std::sort(lost_.begin(), lost_.end(),
               [&](auto a, auto b) { return model_.behaviors()[a].id > model_.behaviors()[b].id; });
@@ -284,9 +334,13 @@ bool Stepper::excludes_running_task(std::uint32_t task) const {
                      [&](std::uint32_t rival) { return has_bit(now_.running.data(), rival); });
 }
 
+bool Stepper::may_enqueue(std::uint32_t reactive) const {
+  return now_.cells[model_.layout().queue + reactive] == 0 &&
+         !has_bit(now_.running.data(), model_.reactive()[reactive]);
+}
+
 void Stepper::enqueue(std::uint32_t reactive) {
-  std::uint16_t& set = now_.cells[model_.layout().queue + reactive];
-  if (set == 0 && !has_bit(now_.running.data(), model_.reactive()[reactive])) set = joined_now;
+  if (may_enqueue(reactive)) now_.cells[model_.layout().queue + reactive] = joined_now;
 }
 
 void Stepper::update_queue(const Trigger& trigger) {
@@ -359,8 +413,7 @@ void Stepper::note_changes(const Word* wanted, std::uint32_t group, std::uint32_
   const BitRange behaviors = model_.groups()[group].behaviors;
   for (std::uint32_t behavior = behaviors.begin; behavior < behaviors.end; ++behavior) {
     if (has_bit(active_.data(), behavior) || !has_bit(wanted, behavior)) continue;
-    const bool fails =
-        is_rollback ? now_.cells[model_.layout().faulty + behavior] != 0 : behavior == failing;
+    const bool fails = is_rollback ? is_faulty_now(behavior) : behavior == failing;
     changes.push_back({behavior, true, !fails});
     if (fails && !is_rollback) return;
   }

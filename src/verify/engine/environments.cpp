@@ -1,0 +1,302 @@
+// The environment of a state, apart from its control: featured transition systems (A. Classen, M.
+// Cordy, P.-Y. Schobbens, P. Heymans, A. Legay and J.-F. Raskin, "Featured transition systems",
+// IEEE Transactions on Software Engineering 39 (2013)) explore a family of systems so. There the
+// features never change; here the situation does, and behaviors become faulty, so moves map sets of
+// environments to sets.
+
+#include "verify/engine/environments.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace cbc {
+
+namespace {
+
+std::uint32_t bits_of(const Model& model) {
+  std::uint32_t bits = model.layout().own_count + model.layout().faulty_count;
+  for (const Model::Variable& variable : model.variables()) {
+    if (variable.cell != none)
+      bits += static_cast<std::uint32_t>(std::bit_width(variable.values - 1));
+  }
+  return bits;
+}
+
+}  // namespace
+
+Environments::Environments(const Model& model) : model_(model), sets_(bits_of(model)) {
+  for (const Model::Variable& variable : model_.variables()) {
+    const bool changes = variable.cell != none;
+    width_.push_back(changes ? static_cast<std::uint8_t>(std::bit_width(variable.values - 1)) : 0);
+    first_bit_.push_back(changes ? bits_ : none);
+    bits_ += width_.back();
+  }
+  first_own_ = bits_;
+  first_fault_ = first_own_ + model_.layout().own_count;
+  bits_ = first_fault_ + model_.layout().faulty_count;
+  find_conditions();
+  find_never();
+  count_faults_in_all();
+  add_effects();
+}
+
+Diagrams::Values Environments::values_of(std::uint32_t variable, std::uint32_t value) const {
+  Diagrams::Values values;
+  for (std::uint32_t place = 0; place < width_[variable]; ++place) {
+    const std::uint32_t shift = width_[variable] - 1U - place;
+    values.bits.emplace_back(first_bit_[variable] + place, ((value >> shift) & 1U) != 0);
+  }
+  return values;
+}
+
+Environments::Set Environments::with_value(std::uint32_t variable, std::uint32_t value) {
+  if (first_bit_[variable] == none) {
+    return model_.variables()[variable].initial == value ? Diagrams::all : Diagrams::empty;
+  }
+  return sets_.with(values_of(variable, value));
+}
+
+Environments::Set Environments::denied(std::uint32_t behavior) {
+  const std::uint32_t own = model_.behaviors()[behavior].own;
+  if (own != none) return sets_.with(first_own_ + own, true);
+  return has_bit(model_.denied().data(), behavior) ? Diagrams::all : Diagrams::empty;
+}
+
+Environments::Set Environments::faulty(std::uint32_t behavior) {
+  if (model_.layout().faulty_count == 0) return Diagrams::empty;
+  return sets_.with(first_fault_ + behavior, true);
+}
+
+void Environments::find_conditions() {
+  fitting_.assign(model_.behaviors().size(), Diagrams::all);
+  for (std::uint32_t variable = 0; variable < model_.variables().size(); ++variable) {
+    std::vector<Set> of_behavior(fitting_.size(), Diagrams::empty);
+    const auto& misfits = model_.variables()[variable].misfits;
+    for (std::uint32_t value = 0; value < misfits.size(); ++value) {
+      const Set here = with_value(variable, value);
+      for (std::uint32_t behavior = 0; behavior < fitting_.size(); ++behavior) {
+        if (has_bit(misfits[value].data(), behavior)) continue;
+        of_behavior[behavior] = sets_.either(of_behavior[behavior], here);
+      }
+    }
+    for (std::uint32_t behavior = 0; behavior < fitting_.size(); ++behavior) {
+      const auto named = model_.catalog().fitting_values_of(model_.behaviors()[behavior].id);
+      const bool depends = std::any_of(named.begin(), named.end(), [&](const auto& one) {
+        return one.variable == model_.variables()[variable].id;
+      });
+      if (depends) fitting_[behavior] = sets_.both(fitting_[behavior], of_behavior[behavior]);
+    }
+  }
+  for (std::uint32_t behavior = 0; behavior < fitting_.size(); ++behavior) {
+    available_.push_back(sets_.without(fitting_[behavior], denied(behavior)));
+  }
+}
+
+void Environments::find_never() {
+  const Model::Layout& layout = model_.layout();
+  for (const Model::Excluded& excluded : model_.excluded()) {
+    Set all_parts = Diagrams::all;
+    for (const auto& [cell, value] : excluded) {
+      const auto variable =
+          std::find_if(model_.variables().begin(), model_.variables().end(),
+                       [cell = cell](const auto& one) { return one.cell == cell; });
+      const Set part =
+          variable != model_.variables().end()
+              ? with_value(static_cast<std::uint32_t>(variable - model_.variables().begin()), value)
+              : sets_.with(first_own_ + (cell - layout.own), value != 0);
+      all_parts = sets_.both(all_parts, part);
+    }
+    never_ = sets_.either(never_, all_parts);
+  }
+}
+
+void Environments::count_faults_in_all() {
+  const std::uint32_t behaviors = model_.layout().faulty_count;
+  const std::uint32_t most = std::min(model_.assumptions().faults, behaviors);
+  exactly_.assign(most + 1, Diagrams::empty);
+  exactly_[0] = Diagrams::all;
+  for (std::uint32_t behavior = behaviors; behavior-- > 0;) {
+    const Set faulty = sets_.with(first_fault_ + behavior, true);
+    for (std::uint32_t count = most + 1; count-- > 0;) {
+      const Set one_more = count > 0 ? sets_.both(exactly_[count - 1], faulty) : Diagrams::empty;
+      exactly_[count] = sets_.either(sets_.without(exactly_[count], faulty), one_more);
+    }
+  }
+  for (std::uint32_t count = 0; count < most; ++count) room_ = sets_.either(room_, exactly_[count]);
+  std::vector<bool> all_bits(sets_.bits(), false);
+  for (std::uint32_t group = 0; group < model_.groups().size(); ++group) {
+    std::vector<bool> bits(sets_.bits(), false);
+    const BitRange range = model_.groups()[group].behaviors;
+    for (std::uint32_t behavior = range.begin; behavior < range.end && behaviors > 0; ++behavior) {
+      bits[first_fault_ + behavior] = true;
+      all_bits[first_fault_ + behavior] = true;
+    }
+    faults_of_group_.push_back(sets_.keep_bits(std::move(bits)));
+  }
+  all_faults_ = sets_.keep_bits(std::move(all_bits));
+}
+
+void Environments::add_effects() {
+  tables_.emplace_back();
+  const auto& moves = model_.moves();
+  for (std::uint32_t choice = 0; choice < moves.size(); ++choice) {
+    const Model::Choice& move = moves[choice];
+    switch (move.move.kind) {
+      case Move::Kind::fault:
+      case Move::Kind::repair:
+        break;
+      case Move::Kind::variable:
+        add_effect(choice, sets_.complement(with_value(move.subject, move.choice)),
+                   values_of(move.subject, move.choice));
+        break;
+      case Move::Kind::own: {
+        const std::uint32_t bit = first_own_ + model_.behaviors()[move.subject].own;
+        for (const bool is_denied : {false, true}) {
+          add_effect(choice, sets_.with(bit, !is_denied), {{{bit, is_denied}}});
+        }
+        break;
+      }
+      default: {
+        Effect effect;
+        effect.choice = choice;
+        if (move.move.kind == Move::Kind::situation_change) effect.condition = denied(move.subject);
+        effects_.push_back(effect);
+        break;
+      }
+    }
+  }
+}
+
+void Environments::add_effect(std::uint32_t choice, Set condition, const Diagrams::Values& values) {
+  Effect effect;
+  effect.choice = choice;
+  effect.changes = true;
+  effect.values = sets_.keep(values);
+  effect.condition = sets_.without(condition, sets_.before_change(never_, effect.values));
+  effect.table = static_cast<std::uint32_t>(tables_.size());
+  tables_.emplace_back();
+  effects_.push_back(effect);
+}
+
+Environments::Set Environments::after_to_before(const Effect& effect, Set set) {
+  return effect.changes ? sets_.before_change(set, effect.values) : set;
+}
+
+Environments::Table& Environments::table_of(const Effect& effect) {
+  Table& table = tables_[effect.table];
+  if (std::exchange(table.is_known, true)) return table;
+  const std::size_t behaviors = model_.behaviors().size();
+  table.gains.assign(model_.groups().size(), Diagrams::empty);
+  Stepper::Possible& possible = table.possible;
+  possible.fitting.resize(words_for(behaviors));
+  possible.available.resize(words_for(behaviors));
+  possible.fitting_values.resize(words_for(model_.value_count()));
+  possible.available_values.resize(words_for(model_.value_count()));
+  for (std::uint32_t behavior = 0; behavior < behaviors; ++behavior) {
+    if (after_to_before(effect, fitting_[behavior]) == Diagrams::empty) continue;
+    const Set is_available = after_to_before(effect, available_[behavior]);
+    set_bit(possible.fitting.data(), behavior);
+    if (is_available != Diagrams::empty) set_bit(possible.available.data(), behavior);
+    for (const std::uint32_t value : model_.behaviors()[behavior].values) {
+      set_bit(possible.fitting_values.data(), value);
+      if (is_available != Diagrams::empty) set_bit(possible.available_values.data(), value);
+    }
+    Set& gains = table.gains[model_.behaviors()[behavior].group];
+    gains = sets_.either(gains, sets_.without(is_available, available_[behavior]));
+  }
+  return table;
+}
+
+Environments::Set Environments::query(const Effect& effect, EnvironmentQuery query) {
+  using Kind = EnvironmentQuery::Kind;
+  const std::uint32_t subject = query.subject;
+  switch (query.kind) {
+    case Kind::fits:
+      return after_to_before(effect, fitting_[subject]);
+    case Kind::available:
+      return after_to_before(effect, available_[subject]);
+    case Kind::faulty:
+      return faulty(subject);
+    case Kind::gains:
+      return table_of(effect).gains[subject];
+  }
+  return Diagrams::empty;
+}
+
+const Stepper::Possible& Environments::possible_after(const Effect& effect) {
+  return table_of(effect).possible;
+}
+
+// Environments of states.
+
+void Environments::read(const std::uint16_t* cells, std::vector<std::uint8_t>& string) const {
+  const Model::Layout& layout = model_.layout();
+  string.assign(sets_.bits(), 0);
+  for (std::uint32_t variable = 0; variable < first_bit_.size(); ++variable) {
+    if (first_bit_[variable] == none) continue;
+    for (const auto& [bit, value] :
+         values_of(variable, cells[model_.variables()[variable].cell]).bits) {
+      string[bit] = value ? 1 : 0;
+    }
+  }
+  for (std::uint32_t own = 0; own < layout.own_count; ++own) {
+    string[first_own_ + own] = cells[layout.own + own] != 0 ? 1 : 0;
+  }
+  for (std::uint32_t behavior = 0; behavior < layout.faulty_count; ++behavior) {
+    string[first_fault_ + behavior] = cells[layout.faulty + behavior] != 0 ? 1 : 0;
+  }
+}
+
+Environments::Set Environments::environment_of(const std::uint16_t* cells) {
+  std::vector<std::uint8_t> string;
+  read(cells, string);
+  Diagrams::Values values;
+  for (std::uint32_t bit = 0; bit < string.size(); ++bit) {
+    values.bits.emplace_back(bit, string[bit] != 0);
+  }
+  return sets_.with(values);
+}
+
+// Moves.
+
+Environments::Set Environments::after(const Effect& effect, Set set) {
+  return effect.changes ? sets_.changed(set, effect.values) : set;
+}
+
+Environments::Set Environments::before(const Effect& effect, Set set) {
+  const Set reached = effect.changes ? sets_.before_change(set, effect.values) : set;
+  return sets_.both(reached, effect.condition);
+}
+
+Environments::Set Environments::after_fault(Set set) {
+  return sets_.one_changed(sets_.both(set, room_), all_faults_, true);
+}
+Environments::Set Environments::before_fault(Set set) {
+  return sets_.both(sets_.one_changed(set, all_faults_, false), room_);
+}
+Environments::Set Environments::after_repair(std::uint32_t group, Set set) {
+  return sets_.one_changed(set, faults_of_group_[group], false);
+}
+Environments::Set Environments::before_repair(std::uint32_t group, Set set) {
+  return sets_.one_changed(set, faults_of_group_[group], true);
+}
+
+std::uint64_t Environments::count_faults(Set set) {
+  std::uint64_t count = 0;
+  for (std::size_t faults = 0; faults + 1 < exactly_.size(); ++faults) {
+    count +=
+        sets_.count(sets_.both(set, exactly_[faults])) * (model_.layout().faulty_count - faults);
+  }
+  return count;
+}
+
+std::uint64_t Environments::count_repairs(Set set) {
+  std::uint64_t count = 0;
+  for (std::size_t faults = 1; faults < exactly_.size(); ++faults) {
+    count += sets_.count(sets_.both(set, exactly_[faults])) * faults;
+  }
+  return count;
+}
+
+}  // namespace cbc
