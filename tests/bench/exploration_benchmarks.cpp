@@ -30,6 +30,9 @@ void register_exploration(const std::string& name, std::shared_ptr<const Compile
         count(result.transitions), benchmark::Counter::kIsIterationInvariantRate);
     state.counters["remembered"] = count(result.decisions_remembered) /
                                    count(result.decisions_remembered + result.decisions_computed);
+    state.counters["controls"] = count(result.controls);
+    state.counters["regions"] = count(result.regions);
+    state.counters["nodes"] = count(result.diagram_nodes);
     state.counters["bytes"] = count(result.bytes) / count(result.states);
   };
   benchmark::RegisterBenchmark(

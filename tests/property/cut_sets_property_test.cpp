@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <optional>
 #include <set>
 #include <string>
@@ -14,17 +13,15 @@
 
 #include <gtest/gtest.h>
 
-#include "compiled_text.h"
+#include "compiled_model.h"
 #include "demand.h"
 #include "enumeration.h"
-#include "lint_generator.h"
 #include "lint_oracle.h"
 #include "random.h"
 #include "random_cases.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "statistics.h"
 #include "verify/engine/cut_sets.h"
-#include "yaml_text.h"
 
 namespace cbc::oracle::cut_sets_property_test {
 namespace {
@@ -42,14 +39,13 @@ using Values = std::vector<std::pair<std::size_t, std::size_t>>;
 /// A cut set of the model: behaviors, ascending, and the values under which they suffice.
 using SituatedSet = std::pair<std::vector<std::size_t>, Values>;
 
-class Check {
+class Check : private CompiledModel {
  public:
   Check(const LintOracle& oracle, const CompiledCatalog& compiled, Random& random,
         Statistics& statistics)
-      : oracle_(oracle),
+      : CompiledModel(oracle.facts().catalog, compiled),
+        oracle_(oracle),
         facts_(oracle.facts()),
-        catalog_(facts_.catalog),
-        compiled_(compiled),
         random_(random),
         statistics_(statistics) {}
 
@@ -67,17 +63,6 @@ class Check {
   }
 
  private:
-  TaskId id_of_task(std::size_t task) const {
-    return compiled_.task_ids[*compiled_.find_task(catalog_.tasks[task].name)];
-  }
-  BehaviorId id_of_behavior(std::size_t behavior) const {
-    return compiled_.behavior_ids[*compiled_.find_behavior(catalog_.behaviors[behavior].name)];
-  }
-  VariableValue id_of_value(std::size_t variable, std::size_t value) const {
-    return {*compiled_.find_variable(catalog_.variables[variable].name),
-            static_cast<std::uint32_t>(value)};
-  }
-
   void enumerate_situations() {
     situations_ = {{}};
     for (const Variable& variable : catalog_.variables) {
@@ -275,8 +260,6 @@ class Check {
 
   const LintOracle& oracle_;
   const CatalogFacts& facts_;
-  const Catalog& catalog_;
-  const CompiledCatalog& compiled_;
   Random& random_;
   Statistics& statistics_;
   std::vector<std::vector<std::size_t>> situations_;  ///< all, each by variable
@@ -289,20 +272,12 @@ class Check {
 };
 
 void run_case(std::uint64_t seed, Results& results) {
-  Random random(seed);
-  Catalog catalog = generate_strict_catalog(random);
-  add_situation(catalog, random);
-  const std::string yaml = catalog_yaml(catalog, random);
-  try {
-    const CatalogFacts facts(catalog);
-    const LintOracle oracle(facts);
-    const std::optional<CompiledCatalog> compiled = compile_yaml(yaml);
-    demand(compiled.has_value(), "not understood");
-    Check(oracle, *compiled, random, results.statistics).check();
-  } catch (const std::exception& error) {
-    results.faults.push_back({seed, "seed " + std::to_string(seed) + "\n--- catalog\n" + yaml +
-                                        "--- fault\n" + error.what() + "\n"});
-  }
+  run_situation_case(seed, results, false,
+                     [&](const Catalog& catalog, const CompiledCatalog& compiled, Random& random) {
+                       const CatalogFacts facts(catalog);
+                       const LintOracle oracle(facts);
+                       Check(oracle, compiled, random, results.statistics).check();
+                     });
 }
 
 const LowerBound lower_bounds[] = {

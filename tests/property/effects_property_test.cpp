@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <map>
 #include <optional>
 #include <set>
@@ -16,10 +15,9 @@
 
 #include <gtest/gtest.h>
 
-#include "compiled_text.h"
+#include "compiled_model.h"
 #include "demand.h"
 #include "enumeration.h"
-#include "lint_generator.h"
 #include "random.h"
 #include "random_cases.h"
 #include "runtime/compiled/compiled_catalog.h"
@@ -28,7 +26,6 @@
 #include "verify/engine/cut_sets.h"
 #include "verify/engine/effects.h"
 #include "verify/report/verify_report.h"
-#include "yaml_text.h"
 
 namespace cbc::oracle::effects_property_test {
 namespace {
@@ -53,13 +50,12 @@ class Ignore final : public EventListener {
   void on_event(const EventRecord& /*record*/) override {}
 };
 
-class Check {
+class Check : private CompiledModel {
  public:
   Check(const CatalogFacts& facts, const CompiledCatalog& compiled, Random& random,
         Statistics& statistics)
-      : facts_(facts),
-        catalog_(facts.catalog),
-        compiled_(compiled),
+      : CompiledModel(facts.catalog, compiled),
+        facts_(facts),
         random_(random),
         statistics_(statistics) {}
 
@@ -81,16 +77,6 @@ class Check {
   }
 
  private:
-  TaskId id_of_task(std::size_t task) const {
-    return compiled_.task_ids[*compiled_.find_task(catalog_.tasks[task].name)];
-  }
-  BehaviorId id_of_behavior(std::size_t behavior) const {
-    return compiled_.behavior_ids[*compiled_.find_behavior(catalog_.behaviors[behavior].name)];
-  }
-  VariableValue id_of_value(std::size_t variable, std::size_t value) const {
-    return {*compiled_.find_variable(catalog_.variables[variable].name),
-            static_cast<std::uint32_t>(value)};
-  }
   BehaviorSet ids_of(const Faults& faults) const {
     BehaviorSet ids;
     for (const std::size_t behavior : faults) ids.push_back(id_of_behavior(behavior));
@@ -315,8 +301,6 @@ class Check {
   }
 
   const CatalogFacts& facts_;
-  const Catalog& catalog_;
-  const CompiledCatalog& compiled_;
   Random& random_;
   Statistics& statistics_;
   std::vector<bool> own_;
@@ -332,21 +316,11 @@ class Check {
 };
 
 void run_case(std::uint64_t seed, Results& results) {
-  Random random(seed);
-  Catalog catalog = generate_strict_catalog(random);
-  add_situation(catalog, random);
-  // Those that are not listed come last in a catalog, and order decides between equal answers.
-  for (Task& task : catalog.tasks) task.listed = true;
-  const std::string yaml = catalog_yaml(catalog, random);
-  try {
-    const CatalogFacts facts(catalog);
-    const std::optional<CompiledCatalog> compiled = compile_yaml(yaml);
-    demand(compiled.has_value(), "not understood");
-    Check(facts, *compiled, random, results.statistics).check();
-  } catch (const std::exception& error) {
-    results.faults.push_back({seed, "seed " + std::to_string(seed) + "\n--- catalog\n" + yaml +
-                                        "--- fault\n" + error.what() + "\n"});
-  }
+  run_situation_case(seed, results, true,
+                     [&](const Catalog& catalog, const CompiledCatalog& compiled, Random& random) {
+                       const CatalogFacts facts(catalog);
+                       Check(facts, compiled, random, results.statistics).check();
+                     });
 }
 
 const LowerBound lower_bounds[] = {

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,30 +10,27 @@
 
 #include <gtest/gtest.h>
 
-#include "compiled_text.h"
+#include "compiled_model.h"
 #include "demand.h"
 #include "enumeration.h"
-#include "lint_generator.h"
 #include "oracle.h"
 #include "random.h"
 #include "random_cases.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "statistics.h"
 #include "verify/engine/overrides.h"
-#include "yaml_text.h"
 
 namespace cbc::oracle::overrides_property_test {
 namespace {
 
 constexpr std::uint64_t default_cases = 300;
 
-class Check {
+class Check : private CompiledModel {
  public:
   Check(const Catalog& catalog, const CompiledCatalog& compiled, Random& random,
         Statistics& statistics)
-      : facts_(std::make_shared<const CatalogFacts>(catalog)),
-        catalog_(facts_->catalog),
-        compiled_(compiled),
+      : CompiledModel(catalog, compiled),
+        facts_(std::make_shared<const CatalogFacts>(catalog)),
         random_(random),
         statistics_(statistics) {}
 
@@ -63,13 +59,6 @@ class Check {
   }
 
  private:
-  TaskId id_of_task(std::size_t task) const {
-    return compiled_.task_ids[*compiled_.find_task(catalog_.tasks[task].name)];
-  }
-  BehaviorId id_of_behavior(std::size_t behavior) const {
-    return compiled_.behavior_ids[*compiled_.find_behavior(catalog_.behaviors[behavior].name)];
-  }
-
   void draw_situation() {
     for (std::size_t variable = 0; variable < catalog_.variables.size(); ++variable) {
       const std::size_t value = random_.below(catalog_.variables[variable].value_count());
@@ -141,8 +130,6 @@ class Check {
   }
 
   const std::shared_ptr<const CatalogFacts> facts_;
-  const Catalog& catalog_;
-  const CompiledCatalog& compiled_;
   Random& random_;
   Statistics& statistics_;
   Script script_;
@@ -150,20 +137,10 @@ class Check {
 };
 
 void run_case(std::uint64_t seed, Results& results) {
-  Random random(seed);
-  Catalog catalog = generate_strict_catalog(random);
-  add_situation(catalog, random);
-  // Those that are not listed come last in a catalog, and order decides between equal answers.
-  for (Task& task : catalog.tasks) task.listed = true;
-  const std::string yaml = catalog_yaml(catalog, random);
-  try {
-    const std::optional<CompiledCatalog> compiled = compile_yaml(yaml);
-    demand(compiled.has_value(), "not understood");
-    Check(catalog, *compiled, random, results.statistics).check();
-  } catch (const std::exception& error) {
-    results.faults.push_back({seed, "seed " + std::to_string(seed) + "\n--- catalog\n" + yaml +
-                                        "--- fault\n" + error.what() + "\n"});
-  }
+  run_situation_case(seed, results, true,
+                     [&](const Catalog& catalog, const CompiledCatalog& compiled, Random& random) {
+                       Check(catalog, compiled, random, results.statistics).check();
+                     });
 }
 
 const LowerBound lower_bounds[] = {

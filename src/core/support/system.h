@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -98,6 +100,22 @@ inline void run_in_threads(std::size_t count, const std::function<void(std::size
   for (const std::exception_ptr& error : errors) {
     if (error) std::rethrow_exception(error);
   }
+}
+
+/// Calls work(job, number) for all numbers below `count`, on up to `jobs` threads; `job` tells the
+/// threads apart, and 0 is this one. After an exception no further number is begun.
+inline void for_each_in_threads(std::size_t count, std::size_t jobs,
+                                const std::function<void(std::size_t, std::size_t)>& work) {
+  if (count == 0) return;
+  std::atomic<std::size_t> next{0};
+  run_in_threads(std::clamp<std::size_t>(jobs, 1, count), [&](std::size_t job) {
+    try {
+      for (std::size_t number = next++; number < count; number = next++) work(job, number);
+    } catch (...) {
+      next = count;
+      throw;
+    }
+  });
 }
 
 }  // namespace cbc

@@ -68,14 +68,12 @@ std::uint32_t Controls::find_start(std::uint32_t task, Model::Rank ranks) {
   return static_cast<std::uint32_t>(actions_.size() - 1);
 }
 
-Controls::Number Controls::number_of(const std::uint16_t* cells) {
+Controls::Number Controls::find(const std::uint16_t* cells) {
   cells_.assign(cells, cells + model_.layout().variables);
   cells_.resize(model_.layout().cells, 0);
   model_.pack(cells_.data(), packed_.data());
   return store_.insert(packed_.data(), store_.hash(packed_.data()), 0);
 }
-
-Controls::Number Controls::find(const std::uint16_t* cells) { return number_of(cells); }
 
 void Controls::load(Number control) {
   if (control == loaded_) return;
@@ -91,7 +89,8 @@ void Controls::explore(std::uint32_t action, Set set) {
   const Action& made = actions_[action];
   Asked asked(*this, made.effect, root_of(action));
   stepper_.take_control(made.choice, environments_.possible_after(made.effect), asked);
-  const Number target = number_of(stepper_.cells_after());
+  // A start that is no move may lead to what no state is.
+  const Number target = made.is_move ? find(stepper_.cells_after()) : loaded_;
   at(asked.place()) = is_outcome | (stepper_.was_accepted() ? is_accepted : 0) | target;
   ++regions_;
 }
@@ -106,7 +105,7 @@ Controls::Number Controls::after_repair(std::uint32_t group) {
   const Environments::Effect none_at_all;
   Asked asked(*this, none_at_all, {});
   stepper_.take_control(repair, environments_.possible_after(none_at_all), asked);
-  return number_of(stepper_.cells_after());
+  return find(stepper_.cells_after());
 }
 
 std::vector<Controls::Number> Controls::successors_of(Number control) const {

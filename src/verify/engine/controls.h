@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "verify/engine/breadth_first.h"
@@ -42,7 +41,6 @@ class Controls {
   [[nodiscard]] Number find(const std::uint16_t* cells);
   /// Takes up a control.
   void load(Number control);
-  [[nodiscard]] Number loaded() const { return loaded_; }
   /// Of its state, what it says of the control counts.
   [[nodiscard]] const Stepper& stepper() const { return stepper_; }
   [[nodiscard]] bool may_have(std::uint32_t action) const {
@@ -90,7 +88,6 @@ class Controls {
     return place.is_root ? roots_[place.number] : questions_[place.number].answers[place.answer];
   }
   void explore(std::uint32_t action, Set set);
-  [[nodiscard]] Number number_of(const std::uint16_t* cells);
 
   template <typename Take>
   void walk(const Place& place, std::uint32_t action, Set set, Take& take) {

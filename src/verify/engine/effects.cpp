@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-#include "runtime/base/natural.h"
+#include "runtime/solver/objective.h"
 
 namespace cbc {
 namespace {
@@ -177,19 +177,12 @@ std::vector<Millionths> suitabilities_of(const CompiledCatalog& catalog, TaskId 
 
 bool is_below(std::span<const Millionths> product, std::span<const Millionths> whole,
               std::uint32_t thousandths) {
-  Natural left;
-  Natural right;
-  const auto add = [](std::span<const Millionths> factors, Natural& to, Natural& scale_of) {
-    for (const Millionths factor : factors) {
-      to.multiply(static_cast<std::uint32_t>(factor));
-      scale_of.multiply(1'000'000);
-    }
-  };
-  add(product, left, right);
-  add(whole, right, left);
-  left.multiply(1000);
-  right.multiply(thousandths);
-  return left < right;
+  ExactProduct left;
+  ExactProduct right;
+  for (const Millionths factor : product) left.multiply(factor);
+  for (const Millionths factor : whole) right.multiply(factor);
+  right.multiply(static_cast<Millionths>(thousandths) * 1000);
+  return ExactProduct::compare(left, right) < 0;
 }
 
 }  // namespace cbc

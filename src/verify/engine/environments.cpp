@@ -14,12 +14,15 @@ namespace cbc {
 
 namespace {
 
+/// The bits of a variable; 0: it does not change.
+std::uint32_t width_of(const Model::Variable& variable) {
+  if (variable.cell == none) return 0;
+  return static_cast<std::uint32_t>(std::bit_width(variable.values - 1));
+}
+
 std::uint32_t bits_of(const Model& model) {
   std::uint32_t bits = model.layout().own_count + model.layout().faulty_count;
-  for (const Model::Variable& variable : model.variables()) {
-    if (variable.cell != none)
-      bits += static_cast<std::uint32_t>(std::bit_width(variable.values - 1));
-  }
+  for (const Model::Variable& variable : model.variables()) bits += width_of(variable);
   return bits;
 }
 
@@ -27,14 +30,10 @@ std::uint32_t bits_of(const Model& model) {
 
 Environments::Environments(const Model& model) : model_(model), sets_(bits_of(model)) {
   for (const Model::Variable& variable : model_.variables()) {
-    const bool changes = variable.cell != none;
-    width_.push_back(changes ? static_cast<std::uint8_t>(std::bit_width(variable.values - 1)) : 0);
-    first_bit_.push_back(changes ? bits_ : none);
-    bits_ += width_.back();
+    first_bit_.push_back(variable.cell != none ? first_own_ : none);
+    first_own_ += width_of(variable);
   }
-  first_own_ = bits_;
   first_fault_ = first_own_ + model_.layout().own_count;
-  bits_ = first_fault_ + model_.layout().faulty_count;
   find_conditions();
   find_never();
   count_faults_in_all();
@@ -43,8 +42,9 @@ Environments::Environments(const Model& model) : model_(model), sets_(bits_of(mo
 
 Diagrams::Values Environments::values_of(std::uint32_t variable, std::uint32_t value) const {
   Diagrams::Values values;
-  for (std::uint32_t place = 0; place < width_[variable]; ++place) {
-    const std::uint32_t shift = width_[variable] - 1U - place;
+  const std::uint32_t width = width_of(model_.variables()[variable]);
+  for (std::uint32_t place = 0; place < width; ++place) {
+    const std::uint32_t shift = width - 1U - place;
     values.bits.emplace_back(first_bit_[variable] + place, ((value >> shift) & 1U) != 0);
   }
   return values;
@@ -71,21 +71,12 @@ Environments::Set Environments::faulty(std::uint32_t behavior) {
 void Environments::find_conditions() {
   fitting_.assign(model_.behaviors().size(), Diagrams::all);
   for (std::uint32_t variable = 0; variable < model_.variables().size(); ++variable) {
-    std::vector<Set> of_behavior(fitting_.size(), Diagrams::empty);
     const auto& misfits = model_.variables()[variable].misfits;
     for (std::uint32_t value = 0; value < misfits.size(); ++value) {
       const Set here = with_value(variable, value);
-      for (std::uint32_t behavior = 0; behavior < fitting_.size(); ++behavior) {
-        if (has_bit(misfits[value].data(), behavior)) continue;
-        of_behavior[behavior] = sets_.either(of_behavior[behavior], here);
-      }
-    }
-    for (std::uint32_t behavior = 0; behavior < fitting_.size(); ++behavior) {
-      const auto named = model_.catalog().fitting_values_of(model_.behaviors()[behavior].id);
-      const bool depends = std::any_of(named.begin(), named.end(), [&](const auto& one) {
-        return one.variable == model_.variables()[variable].id;
+      for_each_bit(misfits[value].data(), misfits[value].size(), [&](std::uint32_t behavior) {
+        fitting_[behavior] = sets_.without(fitting_[behavior], here);
       });
-      if (depends) fitting_[behavior] = sets_.both(fitting_[behavior], of_behavior[behavior]);
     }
   }
   for (std::uint32_t behavior = 0; behavior < fitting_.size(); ++behavior) {
@@ -188,20 +179,11 @@ Environments::Table& Environments::table_of(const Effect& effect) {
   if (std::exchange(table.is_known, true)) return table;
   const std::size_t behaviors = model_.behaviors().size();
   table.gains.assign(model_.groups().size(), Diagrams::empty);
-  Stepper::Possible& possible = table.possible;
-  possible.fitting.resize(words_for(behaviors));
-  possible.available.resize(words_for(behaviors));
-  possible.fitting_values.resize(words_for(model_.value_count()));
-  possible.available_values.resize(words_for(model_.value_count()));
+  table.possible.clear(model_);
   for (std::uint32_t behavior = 0; behavior < behaviors; ++behavior) {
     if (after_to_before(effect, fitting_[behavior]) == Diagrams::empty) continue;
     const Set is_available = after_to_before(effect, available_[behavior]);
-    set_bit(possible.fitting.data(), behavior);
-    if (is_available != Diagrams::empty) set_bit(possible.available.data(), behavior);
-    for (const std::uint32_t value : model_.behaviors()[behavior].values) {
-      set_bit(possible.fitting_values.data(), value);
-      if (is_available != Diagrams::empty) set_bit(possible.available_values.data(), value);
-    }
+    table.possible.add(model_, behavior, is_available != Diagrams::empty);
     Set& gains = table.gains[model_.behaviors()[behavior].group];
     gains = sets_.either(gains, sets_.without(is_available, available_[behavior]));
   }

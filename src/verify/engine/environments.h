@@ -29,7 +29,6 @@ class Environments {
 
   // Conditions, as sets of all environments that satisfy them.
 
-  [[nodiscard]] Set fitting(std::uint32_t behavior) const { return fitting_[behavior]; }
   [[nodiscard]] Set available(std::uint32_t behavior) const { return available_[behavior]; }
   [[nodiscard]] Set faulty(std::uint32_t behavior);
   [[nodiscard]] Set denied(std::uint32_t behavior);
@@ -54,8 +53,7 @@ class Environments {
   /// Those that become one of the set, if the move exists in them.
   [[nodiscard]] Set before(const Effect& effect, Set set);
 
-  /// Where one more behavior may become faulty, and those that come of it.
-  [[nodiscard]] Set with_room_for_fault() const { return room_; }
+  /// The environments that come of a fault, where one more behavior may become faulty.
   [[nodiscard]] Set after_fault(Set set);
   /// Those that come of the repair of a behavior of a group.
   [[nodiscard]] Set after_repair(std::uint32_t group, Set set);
@@ -98,16 +96,14 @@ class Environments {
 
   const Model& model_;
   std::vector<std::uint32_t> first_bit_;  ///< by variable; none: it does not change
-  std::vector<std::uint8_t> width_;       ///< by variable
   std::uint32_t first_own_ = 0;
   std::uint32_t first_fault_ = 0;
-  std::uint32_t bits_ = 0;
   Diagrams sets_;
   std::vector<Set> fitting_;
   std::vector<Set> available_;
   Set never_ = Diagrams::empty;
-  std::vector<Set> exactly_;  ///< by number of faults, up to the most: the environments with it
-  Set room_ = Diagrams::empty;
+  std::vector<Set> exactly_;    ///< by number of faults, up to the most: the environments with it
+  Set room_ = Diagrams::empty;  ///< those in which one more behavior may become faulty
   Diagrams::ValuesNumber all_faults_ = 0;
   std::vector<Diagrams::ValuesNumber> faults_of_group_;
   std::vector<Effect> effects_;

@@ -9,7 +9,6 @@
 #include "verify/engine/explore.h"
 
 #include <algorithm>
-#include <atomic>
 #include <map>
 #include <mutex>
 #include <set>
@@ -132,7 +131,7 @@ class PropertyTest {
   PropertyTest(const Property& property, const Model& model, StateSpace& space)
       : property_(property) {
     if (property.kind == Property::Kind::can_start) {
-      trial_ = space.controls().find_start(model.find_task(property.task),
+      start_ = space.controls().find_start(model.find_task(property.task),
                                            model.ranks_up_to(property.priority));
       return;
     }
@@ -159,7 +158,7 @@ class PropertyTest {
   /// Of states in which the task does not run.
   void on_refusal(std::uint32_t action, const States& states, std::uint32_t depth,
                   StateSpace& space) {
-    if (action == trial_ && first_ >= depth) note(states, depth, space);
+    if (action == start_ && first_ >= depth) note(states, depth, space);
   }
 
   [[nodiscard]] Verdict verdict(const CompiledCatalog& catalog, StateSpace& space) const {
@@ -195,7 +194,7 @@ class PropertyTest {
   }
 
   const Property& property_;
-  std::uint32_t trial_ = none;
+  std::uint32_t start_ = none;  ///< of can_start: the action
   std::optional<StateTest> condition_;
   std::optional<StateTest> when_;
   std::uint32_t first_ = never_seen;  ///< the depth
@@ -461,14 +460,10 @@ std::vector<Exploration> explore_all(const CompiledCatalog& catalog, const Assum
       return options.on_progress(groups, progress);
     };
   }
-  std::atomic<std::size_t> next{0};
-  run_in_threads(
-      std::clamp<std::size_t>(tasks.size(), 1, std::max(1U, options.jobs)), [&](std::size_t) {
-        for (std::size_t place = next++; place < tasks.size(); place = next++) {
-          explorations[place] =
-              explore(catalog, tasks[place].groups, assumptions, tasks[place].properties, each);
-        }
-      });
+  for_each_in_threads(tasks.size(), options.jobs, [&](std::size_t, std::size_t place) {
+    const ExplorationTask& task = tasks[place];
+    explorations[place] = explore(catalog, task.groups, assumptions, task.properties, each);
+  });
   return explorations;
 }
 

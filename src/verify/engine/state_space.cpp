@@ -11,7 +11,7 @@
 #include "verify/engine/state_space.h"
 
 #include <algorithm>
-#include <map>
+#include <utility>
 
 namespace cbc {
 
@@ -19,10 +19,6 @@ namespace {
 
 using Number = Controls::Number;
 using Set = Environments::Set;
-
-bool is_before(const StateSpace::States& states, Number control) {
-  return states.control < control;
-}
 
 }  // namespace
 
@@ -115,55 +111,50 @@ void StateSpace::collect() {
   });
 }
 
-Set StateSpace::states_of(std::uint32_t depth, Number control) const {
-  const Layer& layer = layers_[depth];
-  const auto found = std::lower_bound(layer.begin(), layer.end(), control, is_before);
+/// A layer is in the order of controls.
+Set StateSpace::environments_in(const Layer& layer, Number control) {
+  const auto found =
+      std::lower_bound(layer.begin(), layer.end(), control,
+                       [](const States& states, Number other) { return states.control < other; });
   return found == layer.end() || found->control != control ? Diagrams::empty : found->environments;
 }
 
-/// By control, those that have a move to it.
-std::vector<std::vector<Number>> StateSpace::find_predecessors() {
-  std::vector<std::vector<Number>> predecessors(controls_.size());
+void StateSpace::find_predecessors() {
+  predecessors_.resize(controls_.size());
   const auto add_one = [&](Number target, Number control) {
-    auto& list = predecessors[target];
+    auto& list = predecessors_[target];
     if (list.empty() || list.back() != control) list.push_back(control);
   };
-  for (Number control = 0; control < predecessors.size(); ++control) {
+  for (Number control = 0; control < predecessors_.size(); ++control) {
     for (const Number successor : controls_.successors_of(control)) add_one(successor, control);
     if (model_.layout().faulty_count == 0 || visited_[control] == Diagrams::empty) continue;
     add_one(control, control);
     controls_.load(control);
     for (std::uint32_t group = 0; group < model_.groups().size(); ++group) {
       const Number repaired = controls_.after_repair(group);
-      if (repaired < predecessors.size()) add_one(repaired, control);
+      if (repaired < predecessors_.size()) add_one(repaired, control);
     }
   }
-  return predecessors;
 }
 
 /// By depth, the states of that depth from which targets can be reached in time.
 std::vector<StateSpace::Layer> StateSpace::paths_backward(const Layer& targets,
                                                           std::uint32_t depth) {
-  const std::vector<std::vector<Number>> predecessors = find_predecessors();
+  if (predecessors_.empty()) find_predecessors();
   Diagrams& sets = environments_.sets();
   std::vector<Layer> layers(depth + 1);
   layers[depth] = targets;
   for (std::uint32_t before = depth; before-- > 0;) {
-    std::map<Number, Set> wanted;
+    const Layer& wanted = layers[before + 1];
     std::vector<Number> sources;
-    for (const States& states : layers[before + 1]) {
-      wanted[states.control] = states.environments;
-      const auto& of_target = predecessors[states.control];
+    for (const States& states : wanted) {
+      const auto& of_target = predecessors_[states.control];
       sources.insert(sources.end(), of_target.begin(), of_target.end());
     }
     std::sort(sources.begin(), sources.end());
     sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
-    const auto wanted_of = [&](Number control) {
-      const auto found = wanted.find(control);
-      return found == wanted.end() ? Diagrams::empty : found->second;
-    };
     for (const Number source : sources) {
-      const Set here = states_of(before, source);
+      const Set here = environments_in(layers_[before], source);
       if (here == Diagrams::empty) continue;
       controls_.load(source);
       Set found = Diagrams::empty;
@@ -173,15 +164,16 @@ std::vector<StateSpace::Layer> StateSpace::paths_backward(const Layer& targets,
         const Set set = sets.both(here, effect.condition);
         if (set == Diagrams::empty) continue;
         controls_.for_each_outcome(action, set, [&](Controls::Outcome outcome, Set part) {
-          const Set after = wanted_of(outcome.control);
+          const Set after = environments_in(wanted, outcome.control);
           if (after == Diagrams::empty) return;
           found = sets.either(found, sets.both(part, environments_.before(effect, after)));
         });
       }
       if (model_.layout().faulty_count > 0) {
-        found = sets.either(found, sets.both(here, environments_.before_fault(wanted_of(source))));
+        found = sets.either(
+            found, sets.both(here, environments_.before_fault(environments_in(wanted, source))));
         for (std::uint32_t group = 0; group < model_.groups().size(); ++group) {
-          const Set after = wanted_of(controls_.after_repair(group));
+          const Set after = environments_in(wanted, controls_.after_repair(group));
           found = sets.either(found, sets.both(here, environments_.before_repair(group, after)));
         }
       }
@@ -202,11 +194,9 @@ std::vector<Move> StateSpace::path_to(const std::vector<States>& targets, std::u
     for (const Model::Choice& choice : model_.moves()) {
       if (!stepper.try_move(choice)) continue;
       const Number control = controls_.find(stepper.cells_after());
-      const auto found =
-          std::lower_bound(layers[after].begin(), layers[after].end(), control, is_before);
-      if (found == layers[after].end() || found->control != control) continue;
       environments_.read(stepper.cells_after(), string);
-      if (!environments_.sets().contains(found->environments, string)) continue;
+      const Set wanted = environments_in(layers[after], control);
+      if (!environments_.sets().contains(wanted, string)) continue;
       moves.push_back(stepper.move_of(choice));
       stepper.pack(packed.data());
       break;

@@ -72,10 +72,10 @@ class StateSpace {
   template <typename OnRefusal>
   bool make_moves(const States& states, OnRefusal&& on_refusal);
   void add_faults(const States& states);
-  [[nodiscard]] Set states_of(std::uint32_t depth, Controls::Number control) const;
+  [[nodiscard]] static Set environments_in(const Layer& layer, Controls::Number control);
   void end_layer();
   void collect();
-  [[nodiscard]] std::vector<std::vector<Controls::Number>> find_predecessors();
+  void find_predecessors();
   [[nodiscard]] std::vector<Layer> paths_backward(const Layer& targets, std::uint32_t depth);
 
   const Model& model_;
@@ -88,6 +88,8 @@ class StateSpace {
   std::vector<Set> next_;                  ///< by control: of the next layer
   std::vector<Controls::Number> touched_;  ///< controls with some
   std::vector<States> kept_;
+  /// By control: those that have a move to it; found when it is first asked.
+  std::vector<std::vector<Controls::Number>> predecessors_;
   bool is_complete_ = false;
   ExplorationEnd end_ = ExplorationEnd::stopped;
   std::uint64_t states_ = 0;

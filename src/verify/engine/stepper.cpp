@@ -25,10 +25,7 @@ Stepper::Stepper(const Model& model, const Options& options)
   before_.values.resize(values);
   before_.running.resize(tasks);
   before_.active.resize(behaviors);
-  before_.possible.fitting.resize(behaviors);
-  before_.possible.available.resize(behaviors);
-  before_.possible.available_values.resize(values);
-  before_.possible.fitting_values.resize(values);
+  before_.possible.clear(model);
   excluded_values_.resize(values);
   domains_.resize(values);
   present_.resize(values);
@@ -78,27 +75,50 @@ void Stepper::derive(State& state, bool situation_too) const {
   if (situation_too) derive_situation(state);
 }
 
+void Stepper::Possible::clear(const Model& model) {
+  for (std::vector<Word>* const behaviors : {&fitting, &available}) {
+    behaviors->assign(words_for(model.behaviors().size()), 0);
+  }
+  for (std::vector<Word>* const values : {&fitting_values, &available_values}) {
+    values->assign(words_for(model.value_count()), 0);
+  }
+}
+
+void Stepper::Possible::add(const Model& model, std::uint32_t behavior, bool is_available) {
+  set_bit(fitting.data(), behavior);
+  if (is_available) set_bit(available.data(), behavior);
+  for (const std::uint32_t value : model.behaviors()[behavior].values) {
+    set_bit(fitting_values.data(), value);
+    if (is_available) set_bit(available_values.data(), value);
+  }
+}
+
+void Stepper::Possible::remove_available(const Model& model, std::uint32_t behavior) {
+  clear_bit(available.data(), behavior);
+  for (const std::uint32_t value : model.behaviors()[behavior].values) {
+    clear_bit(available_values.data(), value);
+  }
+}
+
+void Stepper::Possible::remove(const Model& model, std::uint32_t behavior) {
+  remove_available(model, behavior);
+  clear_bit(fitting.data(), behavior);
+  for (const std::uint32_t value : model.behaviors()[behavior].values) {
+    clear_bit(fitting_values.data(), value);
+  }
+}
+
 void Stepper::derive_situation(State& state) const {
-  Possible& possible = state.possible;
-  std::fill(possible.fitting.begin(), possible.fitting.end(), ~Word{0});
+  state.possible.clear(model_);
+  std::vector<Word>& fitting = state.possible.fitting;
+  std::fill(fitting.begin(), fitting.end(), ~Word{0});
   for (std::uint32_t place = 0; place < model_.variables().size(); ++place) {
     const auto& misfits = model_.variables()[place].misfits[value_of(state, place)];
-    for (std::size_t word = 0; word < misfits.size(); ++word)
-      possible.fitting[word] &= ~misfits[word];
+    for (std::size_t word = 0; word < misfits.size(); ++word) fitting[word] &= ~misfits[word];
   }
-  const auto& behaviors = model_.behaviors();
-  std::fill(possible.available_values.begin(), possible.available_values.end(), 0);
-  std::fill(possible.fitting_values.begin(), possible.fitting_values.end(), 0);
-  for (std::uint32_t place = 0; place < behaviors.size(); ++place) {
-    const bool fits = has_bit(possible.fitting.data(), place);
-    const bool available = fits && !is_denied(state, place);
-    available ? set_bit(possible.available.data(), place)
-              : clear_bit(possible.available.data(), place);
-    if (!fits) continue;
-    for (const std::uint32_t value : behaviors[place].values) {
-      set_bit(possible.fitting_values.data(), value);
-      if (available) set_bit(possible.available_values.data(), value);
-    }
+  for (std::uint32_t behavior = 0; behavior < model_.behaviors().size(); ++behavior) {
+    if (!has_bit(fitting.data(), behavior)) continue;
+    state.possible.add(model_, behavior, !is_denied(state, behavior));
   }
 }
 
@@ -390,29 +410,22 @@ void Stepper::adapt() {
 // The environment.
 
 bool Stepper::fits(std::uint32_t behavior) {
-  using Kind = EnvironmentQuery::Kind;
-  Possible& possible = now_.possible;
-  if (!has_bit(possible.fitting.data(), behavior)) return false;
-  if (environment_ == nullptr || environment_->holds({Kind::fits, behavior})) return true;
-  clear_bit(possible.fitting.data(), behavior);
-  clear_bit(possible.available.data(), behavior);
-  for (const std::uint32_t value : model_.behaviors()[behavior].values) {
-    clear_bit(possible.fitting_values.data(), value);
-    clear_bit(possible.available_values.data(), value);
-  }
+  if (!has_bit(now_.possible.fitting.data(), behavior)) return false;
+  if (is_confirmed(EnvironmentQuery::Kind::fits, behavior)) return true;
+  now_.possible.remove(model_, behavior);
   return false;
 }
 
 bool Stepper::is_available_now(std::uint32_t behavior) {
-  using Kind = EnvironmentQuery::Kind;
-  Possible& possible = now_.possible;
-  if (!has_bit(possible.available.data(), behavior)) return false;
-  if (environment_ == nullptr || environment_->holds({Kind::available, behavior})) return true;
-  clear_bit(possible.available.data(), behavior);
-  for (const std::uint32_t value : model_.behaviors()[behavior].values) {
-    clear_bit(possible.available_values.data(), value);
-  }
+  if (!has_bit(now_.possible.available.data(), behavior)) return false;
+  if (is_confirmed(EnvironmentQuery::Kind::available, behavior)) return true;
+  now_.possible.remove_available(model_, behavior);
   return false;
+}
+
+/// What is possible is so, unless there is an environment to ask.
+bool Stepper::is_confirmed(EnvironmentQuery::Kind kind, std::uint32_t behavior) const {
+  return environment_ == nullptr || environment_->holds({kind, behavior});
 }
 
 bool Stepper::is_faulty_now(std::uint32_t behavior) const {

@@ -93,6 +93,12 @@ class Stepper {
     std::vector<Word> available;  ///< behaviors
     std::vector<Word> fitting_values;
     std::vector<Word> available_values;
+
+    void clear(const Model& model);
+    /// The behavior fits.
+    void add(const Model& model, std::uint32_t behavior, bool is_available);
+    void remove_available(const Model& model, std::uint32_t behavior);
+    void remove(const Model& model, std::uint32_t behavior);
   };
   /// Takes up a control.
   void load_control(const std::uint32_t* packed);
@@ -186,6 +192,7 @@ class Stepper {
   [[nodiscard]] bool may_have(const Trigger& trigger, std::uint32_t value);
   [[nodiscard]] bool fits(std::uint32_t behavior);
   [[nodiscard]] bool is_available_now(std::uint32_t behavior);
+  [[nodiscard]] bool is_confirmed(EnvironmentQuery::Kind kind, std::uint32_t behavior) const;
   [[nodiscard]] bool is_faulty_now(std::uint32_t behavior) const;
   [[nodiscard]] bool gains(std::uint32_t group) const;
   void rank_requests(const Trigger& trigger);

@@ -58,18 +58,10 @@ class Judging {
   /// the progress, if the thread is this one.
   template <typename Work>
   void for_each(std::size_t count, std::size_t jobs, const Work& work) {
-    if (count == 0) return;
-    std::atomic<std::size_t> next{0};
-    run_in_threads(std::min(jobs, count), [&](std::size_t job) {
-      const auto show = [&](bool is_compared, std::size_t done, std::size_t of) {
+    for_each_in_threads(count, jobs, [&](std::size_t job, std::size_t place) {
+      work(place, [&](bool is_compared, std::size_t done, std::size_t of) {
         if (job == 0 && options_.on_progress) options_.on_progress(is_compared, done, of);
-      };
-      try {
-        for (std::size_t place = next++; place < count; place = next++) work(place, show);
-      } catch (...) {
-        next = count;  // the others end soon
-        throw;
-      }
+      });
     });
   }
 
