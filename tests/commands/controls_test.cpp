@@ -20,10 +20,14 @@ TEST(Controls, AreThoseThatMovesLeadTo) {
   assumptions.faults = 1;
   Property property;
   property.task = a;
-  const Exploration exploration = explore(catalog, {GroupId(0)}, assumptions, {&property}, {});
+  // Which takes all states.
+  Property always;
+  always.kind = Property::Kind::always;
+  const Exploration exploration =
+      explore(catalog, {GroupId(0)}, assumptions, {&property, &always}, {});
   EXPECT_TRUE(exploration.complete);
   EXPECT_EQ(exploration.controls, 2U);  // nothing runs, or B
-  ASSERT_EQ(exploration.verdicts.size(), 1U);
+  ASSERT_EQ(exploration.verdicts.size(), 2U);
   // B gives way, but not to a behavior that is faulty.
   EXPECT_EQ(exploration.verdicts.front().result, Verdict::Result::violated);
   EXPECT_EQ(exploration.verdicts.front().script.size(), 2U);

@@ -1,5 +1,6 @@
 #include "verify/engine/diagrams.h"
 
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <random>
@@ -34,16 +35,27 @@ Table table_of(const Diagrams& diagrams, Diagrams::Set set) {
   return table;
 }
 
-class RandomDiagrams : public testing::TestWithParam<std::uint32_t> {
+struct Shape {
+  std::uint32_t seed = 0;
+  std::uint32_t tail = 0;
+  std::uint32_t most_ones = 0;
+};
+
+class RandomDiagrams : public testing::TestWithParam<Shape> {
  protected:
   std::uint32_t draw(std::size_t below) { return static_cast<std::uint32_t>(random_() % below); }
 
   Diagrams::Values draw_values() {
     Diagrams::Values values;
-    for (std::uint32_t bit = 0; bit < bits; ++bit) {
+    for (std::uint32_t bit = 0; bit < bits - GetParam().tail; ++bit) {
       if (draw(3) == 0) values.bits.emplace_back(bit, draw(2) == 0);
     }
     return values;
+  }
+  /// Whether its tail has not too many ones.
+  static bool exists(std::size_t string) {
+    const std::size_t tail = string & ((std::size_t{1} << GetParam().tail) - 1);
+    return static_cast<std::uint32_t>(std::popcount(tail)) <= GetParam().most_ones;
   }
   static std::size_t change(std::size_t string, const Diagrams::Values& values) {
     for (const auto& [bit, value] : values.bits) string = with_bit(string, bit, value);
@@ -67,19 +79,21 @@ class RandomDiagrams : public testing::TestWithParam<std::uint32_t> {
   }
   Table table(const std::function<bool(std::size_t string)>& is_member) const {
     Table table(strings);
-    for (std::size_t string = 0; string < strings; ++string) table[string] = is_member(string);
+    for (std::size_t string = 0; string < strings; ++string) {
+      table[string] = exists(string) && is_member(string);
+    }
     return table;
   }
 
-  std::mt19937 random_{GetParam()};
-  Diagrams diagrams_{bits};
+  std::mt19937 random_{GetParam().seed};
+  Diagrams diagrams_{bits, GetParam().tail, GetParam().most_ones};
   std::vector<Diagrams::Set> sets_;
   std::vector<Table> tables_;
 };
 
 TEST_P(RandomDiagrams, AreTheSetsOfAllStrings) {
   add(Diagrams::empty, Table(strings, false));
-  add(Diagrams::all, Table(strings, true));
+  add(Diagrams::all, table([](std::size_t) { return true; }));
   for (int step = 0; step < 60; ++step) {
     const std::uint32_t one = draw(sets_.size());
     const std::uint32_t other = draw(sets_.size());
@@ -129,7 +143,8 @@ TEST_P(RandomDiagrams, AreTheSetsOfAllStrings) {
         for (std::size_t string = 0; string < strings; ++string) {
           for (std::uint32_t bit = 0; bit < bits; ++bit) {
             if (!a[string] || !listed[bit] || bit_of(string, bit) == to) continue;
-            changed[with_bit(string, bit, to)] = true;
+            const std::size_t next = with_bit(string, bit, to);
+            if (exists(next)) changed[next] = true;
           }
         }
         add(diagrams_.one_changed(set, diagrams_.keep_bits(listed), to), changed);
@@ -153,7 +168,26 @@ TEST_P(RandomDiagrams, AreTheSetsOfAllStrings) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomDiagrams, testing::Range(1U, 41U));
+std::vector<Shape> shapes() {
+  std::vector<Shape> shapes;
+  for (std::uint32_t seed = 1; seed <= 40; ++seed) {
+    const std::uint32_t tail = seed % (bits + 1);
+    shapes.push_back({seed, tail, seed % 4});
+  }
+  return shapes;
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomDiagrams, testing::ValuesIn(shapes()));
+
+TEST(Diagrams, HaveTailsOfAModerateNumberOfStrings) {
+  EXPECT_EQ(Diagrams::tail_for(50, 0), 50U);
+  EXPECT_EQ(Diagrams::tail_for(50, 2), 50U);
+  EXPECT_EQ(SparseStrings::count(50, 3), 1U + 50 + 1225 + 19600);
+  EXPECT_EQ(SparseStrings::count(1000, 1000), UINT64_MAX);
+  const std::uint32_t tail = Diagrams::tail_for(1000, 2);
+  EXPECT_GT(tail, 100U);
+  EXPECT_LT(tail, 1000U);
+}
 
 TEST(Diagrams, CountsUpToTheLargestNumber) {
   Diagrams diagrams(200);

@@ -26,8 +26,14 @@ class QuestionGenerator {
     question_.assumptions = default_assumptions(catalog_);
     if (random_.percent(85)) choose_assumptions();
     find_far_state();
+    if (random_.percent(20)) {
+      add_scoped();
+      return std::move(question_);
+    }
     const std::size_t wanted = 3 + random_.below(5);
-    while (question_.properties.size() < wanted) add_property();
+    while (question_.properties.size() < wanted) {
+      random_.percent(35) ? add_lasting() : add_property();
+    }
     return std::move(question_);
   }
 
@@ -193,6 +199,59 @@ class QuestionGenerator {
       }
       property.settled = random_.percent(35);
     }
+    question_.properties.push_back(std::move(property));
+  }
+
+  /// What goes on, and what stays possible.
+  void add_lasting() {
+    Property property;
+    property.name = "P" + std::to_string(question_.properties.size());
+    if (random_.percent(50)) {
+      property.kind = Property::Kind::keeps_running;
+      property.task = random_.pick(tasks_);
+    } else {
+      property.kind = Property::Kind::always_possible;
+      property.condition = random_.percent(70) ? describe_state(1 + random_.below(3))
+                                               : draw_condition(1 + random_.below(2));
+      property.settled = random_.percent(25);
+      if (random_.percent(40)) property.within = static_cast<std::uint32_t>(random_.below(5));
+    }
+    if (random_.percent(40)) {
+      property.when = random_.percent(50) ? describe_state(1 + random_.below(2))
+                                          : draw_condition(1 + random_.below(2));
+    }
+    if (random_.percent(60)) property.by = draw_kinds();
+    question_.properties.push_back(std::move(property));
+  }
+
+  MoveKinds draw_kinds() {
+    MoveKinds kinds;
+    for (const MoveKindWord& known : move_kind_words) kinds.*known.kind = random_.percent(65);
+    for (const TaskId task : tasks_) {
+      if (kinds.start && random_.percent(15)) kinds.start_only.push_back(task);
+      if (kinds.stop && random_.percent(15)) kinds.stop_only.push_back(task);
+    }
+    return kinds;
+  }
+
+  /// A promise for a part of each path, whose states are its own.
+  void add_scoped() {
+    Property property;
+    property.name = "P";
+    property.kind = random_.percent(50) ? Property::Kind::always : Property::Kind::never;
+    property.condition = property.kind == Property::Kind::never
+                             ? describe_state(1 + random_.below(5))
+                             : draw_condition(1);
+    if (property.kind == Property::Kind::always && random_.percent(30)) {
+      property.when = draw_condition(1);
+    }
+    property.after = random_.percent(50) ? describe_state(1 + random_.below(3))
+                                         : draw_condition(1 + random_.below(2));
+    if (random_.percent(70)) {
+      property.until = random_.percent(50) ? describe_state(1 + random_.below(2))
+                                           : draw_condition(1 + random_.below(2));
+    }
+    property.settled = random_.percent(20);
     question_.properties.push_back(std::move(property));
   }
 

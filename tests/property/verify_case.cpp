@@ -101,14 +101,27 @@ class Writer {
     return text + part(condition.situation);
   }
 
+  [[nodiscard]] std::string kinds(const MoveKinds& kinds) const {
+    std::string text;
+    for (const MoveKindWord& known : move_kind_words) {
+      if (kinds.*known.kind) text += " " + std::string(known.word);
+    }
+    for (const TaskId one : kinds.start_only) text += " start:" + task(one);
+    for (const TaskId one : kinds.stop_only) text += " stop:" + task(one);
+    return text;
+  }
+
   [[nodiscard]] std::string property(const Property& property) const {
-    static const char* const kinds[] = {"can_start", "always", "never", "reachable"};
-    std::string text = property.name + " " + kinds[static_cast<std::size_t>(property.kind)];
-    if (property.kind == Property::Kind::can_start) {
+    std::string text = property.name + " " + std::string(name_of(property.kind));
+    if (property.task != none) {
       text += " " + task(property.task) + " " + std::to_string(property.priority);
     }
     text += condition(property.condition);
     if (property.when) text += " when" + condition(*property.when);
+    if (property.after) text += " after" + condition(*property.after);
+    if (property.until) text += " until" + condition(*property.until);
+    if (property.within) text += " within " + std::to_string(*property.within);
+    if (property.by) text += " by" + kinds(*property.by);
     return text + (property.settled ? " settled\n" : "\n");
   }
 
@@ -156,7 +169,8 @@ std::string text_of(const VerifyCase& sample) {
 std::string text_of(const CompiledCatalog& catalog, const Verdict& verdict) {
   static const char* const results[] = {"proved", "violated", "undecided"};
   return std::string(results[static_cast<std::size_t>(verdict.result)]) +
-         (verdict.has_script ? ", by\n" : "\n") + text_of(catalog, verdict.script);
+         (verdict.is_vacuous ? ", vacuously" : "") + (verdict.has_script ? ", by\n" : "\n") +
+         text_of(catalog, verdict.script);
 }
 
 }  // namespace cbc::plain

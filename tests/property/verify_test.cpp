@@ -95,12 +95,30 @@ void demand_same(const VerifyCase& sample, const Exploration& result, const Expl
   demand(wanted.size() == found.size(), what + "\nanother number of parts");
 }
 
+/// What nothing decides before all states were visited.
+const Property& undecided_to_the_end() {
+  static const Property property = [] {
+    Property always;
+    always.kind = Property::Kind::always;
+    return always;
+  }();
+  return property;
+}
+
+/// Visits all states, whatever the properties are, but where they have a mark.
+Exploration explore_all(const VerifyCase& sample, const ExplorationOptions& options) {
+  std::vector<const Property*> properties = sample.properties();
+  properties.push_back(&undecided_to_the_end());
+  Exploration result = explore(sample.catalog, sample.question.groups, sample.question.assumptions,
+                               properties, options);
+  result.verdicts.pop_back();
+  return result;
+}
+
 void compare(const VerifyCase& sample, const Exploration& expected, unsigned jobs) {
   ExplorationOptions options;
   options.jobs = jobs;
-  const Exploration result = explore(sample.catalog, sample.question.groups,
-                                     sample.question.assumptions, sample.properties(), options);
-  demand_same(sample, result, expected, std::to_string(jobs) + " jobs");
+  demand_same(sample, explore_all(sample, options), expected, std::to_string(jobs) + " jobs");
 }
 
 /// Compares with the search that merges orders of requests, in all but the counts. Returns whether
@@ -108,8 +126,7 @@ void compare(const VerifyCase& sample, const Exploration& expected, unsigned job
 bool compare_merged(const VerifyCase& sample, const Exploration& expected) {
   ExplorationOptions options;
   options.reduce = true;
-  Exploration result = explore(sample.catalog, sample.question.groups, sample.question.assumptions,
-                               sample.properties(), options);
+  Exploration result = explore_all(sample, options);
   demand(result.states <= expected.states, "merged, there are more states");
   demand(result.depth <= expected.depth, "merged, states are deeper");
   const bool has_merged = result.states < expected.states;
@@ -145,13 +162,45 @@ Exploration beginning_of(const VerifyCase& sample, Exploration result, std::uint
       up_to(depth, result.together, [](const Exploration::Together& entry) { return entry.depth; });
   for (std::size_t i = 0; i < result.verdicts.size(); ++i) {
     Verdict& verdict = result.verdicts[i];
-    const bool is_start = sample.question.properties[i].kind == Property::Kind::can_start;
-    const std::size_t length = verdict.script.size() - (is_start && verdict.has_script ? 1 : 0);
-    if (verdict.has_script && length <= depth) continue;
+    const Property::Kind kind = sample.question.properties[i].kind;
+    const bool ends_with_move =
+        kind == Property::Kind::can_start || kind == Property::Kind::keeps_running;
+    const std::size_t length =
+        verdict.script.size() - (ends_with_move && verdict.has_script ? 1 : 0);
+    const bool needs_all = kind == Property::Kind::always_possible;
+    if (verdict.has_script && length <= depth && !needs_all) continue;
     // If one of them is complete, the other one cannot know.
     verdict = {};
   }
   return result;
+}
+
+/// Compares with the search that ends once all is decided. Returns whether it did.
+bool compare_decided(const VerifyCase& sample, const Exploration& expected) {
+  const Exploration result = explore(sample.catalog, sample.question.groups,
+                                     sample.question.assumptions, sample.properties(), {});
+  if (result.complete) {
+    demand_same(sample, result, expected, "nothing was decided early");
+    return false;
+  }
+  demand(result.decided && !result.end, "it ended for another reason");
+  demand(std::all_of(result.verdicts.begin(), result.verdicts.end(),
+                     [](const Verdict& verdict) { return verdict.has_script; }),
+         "it ended although not all is decided");
+  const auto texts = [&](const Exploration& exploration) {
+    std::string text;
+    for (const Verdict& one : exploration.verdicts) text += text_of(sample.catalog, one);
+    return text;
+  };
+  demand(texts(result) == texts(expected), "decided early, other verdicts: " + texts(result));
+  // The moves of the last depth may not have been made.
+  if (result.depth == 0) return true;
+  const std::uint32_t depth = result.depth - 1;
+  Exploration shorter = result;
+  shorter.states_at_depth.resize(result.depth);
+  demand_same(sample, beginning_of(sample, shorter, depth), beginning_of(sample, expected, depth),
+              "decided early, other facts");
+  return true;
 }
 
 /// Compares searches that ended at a limit. Returns the depth that was compared.
@@ -160,8 +209,7 @@ std::uint32_t compare_beginnings(const VerifyCase& sample, const Exploration& ex
   options.limits.max_states = expected.states;
   const auto explore_with = [&](unsigned jobs) {
     options.jobs = jobs;
-    return explore(sample.catalog, sample.question.groups, sample.question.assumptions,
-                   sample.properties(), options);
+    return explore_all(sample, options);
   };
   const Exploration result = explore_with(1);
   demand_same(sample, explore_with(3), result, "3 jobs, and not 1");
@@ -177,6 +225,13 @@ std::uint32_t compare_beginnings(const VerifyCase& sample, const Exploration& ex
   return depth;
 }
 
+void count_verdict(const Property& property, const Verdict& verdict,
+                   oracle::Statistics& statistics) {
+  const std::string kind = property.after ? "scoped" : std::string(name_of(property.kind));
+  statistics.count(kind + (verdict.result == Verdict::Result::proved ? " proved" : " violated"));
+  if (verdict.is_vacuous) statistics.count("vacuous");
+}
+
 void run_case(std::uint64_t seed, oracle::Results& results) {
   VerifyCase sample;
   try {
@@ -188,6 +243,12 @@ void run_case(std::uint64_t seed, oracle::Results& results) {
       compare(sample, expected, 1);
       compare(sample, expected, 3);
       if (!expected.error && compare_merged(sample, expected)) results.statistics.count("merged");
+      if (!expected.error && compare_decided(sample, expected)) {
+        results.statistics.count("decided early");
+      }
+      for (std::size_t i = 0; i < expected.verdicts.size(); ++i) {
+        count_verdict(sample.question.properties[i], expected.verdicts[i], results.statistics);
+      }
       results.statistics.count(expected.error ? "excluded first state" : "compared");
     } else {
       compare_beginnings(sample, expected);
@@ -204,6 +265,14 @@ const oracle::LowerBound lower_bounds[] = {
     {"compared up to a limit", 80},
     {"excluded first state", 10},
     {"merged", 20},
+    {"decided early", 20},
+    {"keeps_running proved", 20},
+    {"keeps_running violated", 20},
+    {"always_possible proved", 20},
+    {"always_possible violated", 20},
+    {"scoped proved", 20},
+    {"scoped violated", 20},
+    {"vacuous", 20},
 };
 
 TEST(Verify, FindsWhatThePlainSearchFinds) {

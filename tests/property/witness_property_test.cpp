@@ -79,6 +79,10 @@ bool ends_as_stated(const PlainModel& model, const Property& property, const Pla
     case Property::Kind::never:
     case Property::Kind::reachable:
       return model.holds(property.condition, run.end);
+    case Property::Kind::keeps_running:
+      return find_running(run.end, property.task) == nullptr;
+    case Property::Kind::always_possible:
+      return !(property.within == 0U && model.holds(property.condition, run.end));
   }
   return false;
 }

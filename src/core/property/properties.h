@@ -79,30 +79,70 @@ struct StateCondition {
   SituationPart situation;
 };
 
+/// Some of the moves of the assumptions, by their kinds (docs/verify.md, "Moves").
+struct MoveKinds {
+  bool start = false;
+  bool stop = false;
+  bool successes = false;
+  bool failures = false;
+  bool fault = false;
+  bool repair = false;
+  bool situation = false;          ///< with the finishes of behaviors that are unavailable
+  bool queue = false;              ///< its first set comes due
+  std::vector<TaskId> start_only;  ///< the tasks of `start`; empty: all
+  std::vector<TaskId> stop_only;   ///< the tasks of `stop`; empty: all
+};
+
+/// The words for the kinds, in their order.
+struct MoveKindWord {
+  std::string_view word;
+  bool MoveKinds::*kind;
+};
+inline constexpr std::array<MoveKindWord, 8> move_kind_words = {
+    {{"start", &MoveKinds::start},
+     {"stop", &MoveKinds::stop},
+     {"successes", &MoveKinds::successes},
+     {"failures", &MoveKinds::failures},
+     {"fault", &MoveKinds::fault},
+     {"repair", &MoveKinds::repair},
+     {"situation", &MoveKinds::situation},
+     {"queue", &MoveKinds::queue}}};
+
 /// One promise.
 struct Property {
   enum class Kind : std::uint8_t {
-    can_start,  ///< wherever the task does not run, its start with the priority is accepted
-    always,     ///< `condition` holds in every state that satisfies `when`
-    never,      ///< no state satisfies `condition`
-    reachable   ///< some state satisfies `condition`
+    can_start,       ///< wherever the task does not run, its start with the priority is accepted
+    always,          ///< `condition` holds in every state
+    never,           ///< no state satisfies `condition`
+    reachable,       ///< some state satisfies `condition`
+    keeps_running,   ///< no move ends the task while it runs with a request of priority 1 or more
+    always_possible  ///< from every state one that satisfies `condition` can be reached
   };
   Kind kind = Kind::can_start;
   std::string name;      ///< empty: none
   std::size_t line = 0;  ///< in the file
-  TaskId task = none;    ///< of can_start
+  TaskId task = none;    ///< of can_start and keeps_running
   std::int32_t priority = 1;
   StateCondition condition;
-  std::optional<StateCondition> when;
-  bool settled = false;  ///< only states with nothing in the queue count
+  std::optional<StateCondition> when;  ///< only states that satisfy it count
+  bool settled = false;                ///< only states with nothing in the queue count
+  /// Of always and never: only states that are marked count. A state that satisfies `until` loses
+  /// the mark when it is entered; otherwise one that satisfies `after` gets it; otherwise it has
+  /// the mark of the state before.
+  std::optional<StateCondition> after;
+  std::optional<StateCondition> until;
+  std::optional<MoveKinds> by;          ///< the moves that count; nothing: all
+  std::optional<std::uint32_t> within;  ///< of always_possible: the most moves
 };
 
-/// The situation variables that the conditions of a property name.
+/// The conditions of a property.
+[[nodiscard]] std::vector<const StateCondition*> conditions_of(const Property& property);
+/// The situation variables that they name.
 [[nodiscard]] std::set<std::uint32_t> variables_of(const Property& property);
 
 /// The keys of the kinds of properties, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 4> property_kinds = {"can_start", "always", "never",
-                                                                   "reachable"};
+inline constexpr std::array<std::string_view, 6> property_kinds = {
+    "can_start", "always", "never", "reachable", "keeps_running", "always_possible"};
 [[nodiscard]] constexpr std::string_view name_of(Property::Kind kind) {
   return property_kinds[static_cast<std::size_t>(kind)];
 }

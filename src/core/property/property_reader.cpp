@@ -20,8 +20,10 @@ using yaml::Shape;
 constexpr Key file_keys[] = {{"catalog"}, {"assume"}, {"initially"}, {"properties"}};
 constexpr Key assumption_keys[] = {{"start"},  {"stop"},      {"successes"}, {"failures"},
                                    {"faults"}, {"situation"}, {"never"}};
-constexpr Key property_keys[] = {{"name"},  {"can_start"}, {"priority"}, {"always"},
-                                 {"never"}, {"reachable"}, {"when"},     {"settled"}};
+constexpr Key property_keys[] = {{"name"},  {"can_start"}, {"priority"},      {"always"},
+                                 {"never"}, {"reachable"}, {"keeps_running"}, {"always_possible"},
+                                 {"when"},  {"settled"},   {"after"},         {"until"},
+                                 {"by"},    {"within"}};
 constexpr Key condition_keys[] = {{"running"}, {"stopped"},   {"active"},    {"active_includes"},
                                   {"faulty"},  {"available"}, {"requested"}, {"situation"}};
 
@@ -218,6 +220,10 @@ class AssumptionReader {
   bool knows_first_ = true;  ///< the situation at the beginning is understood
 };
 
+bool is_invariant(Property::Kind kind) {
+  return kind == Property::Kind::always || kind == Property::Kind::never;
+}
+
 /// A key that belongs to some kinds of properties only.
 struct Detail {
   std::string_view key;
@@ -227,9 +233,22 @@ struct Detail {
 constexpr Detail details[] = {
     {"priority", "'can_start'",
      [](Property::Kind kind) { return kind == Property::Kind::can_start; }},
-    {"when", "'always'", [](Property::Kind kind) { return kind == Property::Kind::always; }},
-    {"settled", "'always', 'never' and 'reachable'",
-     [](Property::Kind kind) { return kind != Property::Kind::can_start; }}};
+    {"when", "'can_start', 'always', 'keeps_running' and 'always_possible'",
+     [](Property::Kind kind) {
+       return kind != Property::Kind::never && kind != Property::Kind::reachable;
+     }},
+    {"settled", "'always', 'never', 'reachable' and 'always_possible'",
+     [](Property::Kind kind) {
+       return kind != Property::Kind::can_start && kind != Property::Kind::keeps_running;
+     }},
+    {"after", "'always' and 'never'", is_invariant},
+    {"until", "'always' and 'never'", is_invariant},
+    {"by", "'keeps_running' and 'always_possible'",
+     [](Property::Kind kind) {
+       return kind == Property::Kind::keeps_running || kind == Property::Kind::always_possible;
+     }},
+    {"within", "'always_possible'",
+     [](Property::Kind kind) { return kind == Property::Kind::always_possible; }}};
 
 class PropertyReader {
  public:
@@ -300,7 +319,8 @@ class PropertyReader {
                        quote(chosen.without_value) + " has no value");
     } else if (!fields.has_unknown()) {
       reporter_.report(rule::missing_key, range,
-                       "a property needs one of 'can_start', 'always', 'never' and 'reachable'");
+                       "a property needs one of 'can_start', 'always', 'never', 'reachable', "
+                       "'keeps_running' and 'always_possible'");
     }
     return std::nullopt;
   }
@@ -317,23 +337,115 @@ class PropertyReader {
   void read_kind(const Fields& fields, Property& property) {
     const std::string_view key = name_of(property.kind);
     const Node& value = *fields.find(key);
-    if (property.kind == Property::Kind::can_start) {
+    if (property.kind == Property::Kind::can_start ||
+        property.kind == Property::Kind::keeps_running) {
       const auto task = names_.find_task(value, key, reporter_);
       if (task) property.task = names_.catalog().task_ids[*task];
-      if (const Node* priority = fields.find("priority")) {
-        property.priority = yaml::read_integer(*priority, "priority", 1, reporter_).value_or(1);
-      }
-      return;
+    } else {
+      const bool is_denied = property.kind == Property::Kind::never;
+      property.condition = read_condition(value, key, {assumptions_, is_denied}, names_, reporter_);
     }
-    const bool is_denied = property.kind == Property::Kind::never;
-    property.condition = read_condition(value, key, {assumptions_, is_denied}, names_, reporter_);
-    const Node* when = fields.find("when");
-    if (when != nullptr && property.kind == Property::Kind::always) {
-      property.when = read_condition(*when, "when", {assumptions_, false}, names_, reporter_);
+    if (const Node* priority = fields.find("priority")) {
+      property.priority = yaml::read_integer(*priority, "priority", 1, reporter_).value_or(1);
+    }
+    property.when = read_part(fields, "when");
+    property.after = read_part(fields, "after");
+    property.until = read_part(fields, "until");
+    if (property.until && !property.after) {
+      reporter_.report(rule::missing_key, fields.range_of("until"),
+                       "'until' needs 'after', which says where the promise begins");
     }
     if (const Node* settled = fields.find("settled")) {
       property.settled = yaml::read_boolean(*settled, "settled", reporter_).value_or(false);
     }
+    if (const Node* by = fields.find("by")) property.by = read_by(*by);
+    if (const Node* within = fields.find("within")) {
+      const auto most = yaml::read_integer(*within, "within", 0, reporter_);
+      if (most) property.within = static_cast<std::uint32_t>(*most);
+    }
+  }
+
+  std::optional<StateCondition> read_part(const Fields& fields, std::string_view key) {
+    const Node* node = fields.find(key);
+    if (node == nullptr) return std::nullopt;
+    return read_condition(*node, key, {assumptions_, false}, names_, reporter_);
+  }
+
+  MoveKinds read_by(const Node& node) {
+    MoveKinds kinds;
+    constexpr std::string_view expected =
+        "a list of kinds of moves: 'start', 'stop', 'successes', 'failures', 'fault', 'repair', "
+        "'situation' and 'queue'";
+    if (yaml::read_list(node, "by", expected, reporter_) == nullptr) return kinds;
+    if (node.items.empty()) {
+      reporter_.report(rule::invalid_value, node.range,
+                       concat("'by' must be ", expected, ", found an empty list"));
+    }
+    ListedNames listed;
+    for (const Node* item : node.items) {
+      if (item->kind == Kind::mapping) {
+        for (const auto& [key, value] : item->entries) {
+          read_kind_of_tasks(*key, *value, listed, kinds);
+        }
+      } else {
+        static_cast<void>(read_kind_of_moves(*item, expected, listed, kinds));
+      }
+    }
+    return kinds;
+  }
+
+  /// Whether the node is a kind that was not listed before, which is added.
+  bool read_kind_of_moves(const Node& node, std::string_view expected, ListedNames& listed,
+                          MoveKinds& kinds) {
+    const auto* const found = std::find_if(
+        move_kind_words.begin(), move_kind_words.end(),
+        [&](const auto& known) { return node.kind == Kind::scalar && known.word == node.text; });
+    if (found == move_kind_words.end()) {
+      reporter_.report(rule::invalid_value, node.range,
+                       concat("'by' must be ", expected, ", found ", yaml::describe(node)));
+      return false;
+    }
+    kinds.*(found->kind) = true;
+    return listed.add(static_cast<std::uint32_t>(found - move_kind_words.begin()), node, reporter_);
+  }
+
+  /// `start: [TASK]`
+  void read_kind_of_tasks(const Node& key, const Node& value, ListedNames& listed,
+                          MoveKinds& kinds) {
+    if (!read_kind_of_moves(key, "'start' or 'stop' with a list of tasks", listed, kinds)) return;
+    if (key.text != "start" && key.text != "stop") {
+      reporter_.report(rule::invalid_value, key.range,
+                       concat("only 'start' and 'stop' of 'by' take tasks, not ", quote(key.text)));
+      return;
+    }
+    const bool is_start = key.text == "start";
+    if (yaml::read_list(value, key.text, "a list of tasks", reporter_) == nullptr) return;
+    if (value.items.empty()) {
+      reporter_.report(rule::invalid_value, value.range,
+                       concat(quote(key.text), " must be a list of tasks, found an empty list"));
+    }
+    ListedNames tasks;
+    for (const Node* item : value.items) {
+      const auto task = names_.find_task(*item, key.text, reporter_, &value);
+      if (!task || !tasks.add(*task, *item, reporter_)) continue;
+      const TaskId id = names_.catalog().task_ids[*task];
+      (is_start ? kinds.start_only : kinds.stop_only).push_back(id);
+      check_is_assumed(id, is_start, *item);
+    }
+  }
+
+  void check_is_assumed(TaskId task, bool is_start, const Node& node) {
+    if (assumptions_ == nullptr) return;
+    const auto& stopped = assumptions_->stop;
+    const bool is_assumed =
+        is_start ? std::any_of(assumptions_->start.begin(), assumptions_->start.end(),
+                               [task](const auto& start) { return start.task == task; })
+                 : std::find(stopped.begin(), stopped.end(), task) != stopped.end();
+    if (is_assumed) return;
+    const char* const word = is_start ? "start" : "stop";
+    reporter_.report_as({Severity::warning}, rule::impossible_expectation, node.range,
+                        concat("no such move is made, as ", quote(word),
+                               " of 'assume' does not list task ", quote(node.text)));
   }
 
   NameIndex names_;
@@ -372,14 +484,20 @@ bool is_available_at_first(const Assumptions& assumptions, BehaviorId behavior) 
   return found == behaviors.end() || found->available;
 }
 
+std::vector<const StateCondition*> conditions_of(const Property& property) {
+  std::vector<const StateCondition*> conditions = {&property.condition};
+  for (const auto* part : {&property.when, &property.after, &property.until}) {
+    if (*part) conditions.push_back(&**part);
+  }
+  return conditions;
+}
+
 std::set<std::uint32_t> variables_of(const Property& property) {
   std::set<std::uint32_t> variables;
-  for (const VariableValue& value : property.condition.situation.variables) {
-    variables.insert(value.variable);
-  }
-  if (!property.when) return variables;
-  for (const VariableValue& value : property.when->situation.variables) {
-    variables.insert(value.variable);
+  for (const StateCondition* condition : conditions_of(property)) {
+    for (const VariableValue& value : condition->situation.variables) {
+      variables.insert(value.variable);
+    }
   }
   return variables;
 }

@@ -117,15 +117,34 @@ std::string describe_condition(const CompiledCatalog& catalog, const StateCondit
   return join(parts, " and ");
 }
 
+/// "moves of the kinds start (LAND), stop and queue"
+std::string describe_move_kinds(const CompiledCatalog& catalog, const MoveKinds& kinds) {
+  std::vector<std::string> words;
+  for (const MoveKindWord& known : move_kind_words) {
+    if (!(kinds.*known.kind)) continue;
+    std::string& word = words.emplace_back(known.word);
+    const std::vector<TaskId> all;
+    const auto& only = known.kind == &MoveKinds::start  ? kinds.start_only
+                       : known.kind == &MoveKinds::stop ? kinds.stop_only
+                                                        : all;
+    if (only.empty()) continue;
+    word += fmt::format(" ({})", join(only, ", ", [&](TaskId task) {
+                          return printable(catalog.name_of_task(task));
+                        }));
+  }
+  return list_with_and(words);
+}
+
 }  // namespace
 
 std::string describe_property(const CompiledCatalog& catalog, const Property& property) {
   const std::string condition = describe_condition(catalog, property.condition);
+  const auto task = [&] { return printable(catalog.name_of_task(property.task)); };
   std::string text;
   switch (property.kind) {
     case Property::Kind::can_start:
-      return fmt::format("{} can always start with priority {}",
-                         printable(catalog.name_of_task(property.task)), property.priority);
+      text = fmt::format("{} can always start with priority {}", task(), property.priority);
+      break;
     case Property::Kind::always:
       text = fmt::format("always {}", condition);
       break;
@@ -135,8 +154,29 @@ std::string describe_property(const CompiledCatalog& catalog, const Property& pr
     case Property::Kind::reachable:
       text = fmt::format("some state in which {}", condition);
       break;
+    case Property::Kind::keeps_running:
+      text = fmt::format("{} keeps running once it is requested", task());
+      break;
+    case Property::Kind::always_possible:
+      text = fmt::format("it is always possible that {}", condition);
+      break;
+  }
+  if (property.within) {
+    text += fmt::format(", within {} more {}", *property.within,
+                        *property.within == 1 ? "move" : "moves");
+  }
+  if (property.by) {
+    const bool is_keeping = property.kind == Property::Kind::keeps_running;
+    text += fmt::format(", {} {}", is_keeping ? "whatever moves there are of" : "by moves of",
+                        describe_move_kinds(catalog, *property.by));
   }
   if (property.when) text += fmt::format(", when {}", describe_condition(catalog, *property.when));
+  if (property.after) {
+    text += fmt::format(", after {}", describe_condition(catalog, *property.after));
+  }
+  if (property.until) {
+    text += fmt::format(", until {}", describe_condition(catalog, *property.until));
+  }
   if (property.settled) text += ", with nothing in the queue";
   return text;
 }

@@ -53,6 +53,10 @@ class Controls {
   void for_each_outcome(std::uint32_t action, Set set, Take&& take) {
     walk(root_of(action), action, set, take);
   }
+  /// Whether a task runs with a control.
+  [[nodiscard]] bool runs_in(Number control, std::uint32_t task) const {
+    return model_.cell_of(store_.state(control), task) != 0;
+  }
   /// The controls that moves make of one, in some environment that was asked about.
   [[nodiscard]] std::vector<Number> successors_of(Number control) const;
   /// The loaded control after a repair of a behavior of the group.

@@ -4,10 +4,15 @@
 // would save a part of the nodes, at more cost for each; nothing here needs the complement of a
 // large set. A package with a manager of its own for each thread and exact counts is not among the
 // libraries of Debian.
+//
+// Bits of which few are ones make long chains of nodes, so the tail is a table at the end of each
+// path: diagrams whose ends are more than two constants (R. I. Bahar and others, "Algebraic
+// decision diagrams and their applications", ICCAD 1993), here the sets of tails.
 
 #include "verify/engine/diagrams.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace cbc {
 
@@ -34,15 +39,34 @@ std::uint64_t scaled(std::uint64_t value, std::uint32_t shift) {
 
 }  // namespace
 
-Diagrams::Diagrams(std::uint32_t bits)
-    : bits_(bits), table_(first_table, 0), remembered_(first_table) {
-  nodes_.resize(2);
-  for (const Set constant : {empty, all}) nodes_[constant].bit = bits;
-  counts_ = {0, 1};
+std::uint32_t Diagrams::tail_for(std::uint32_t bits, std::uint32_t most_ones) {
+  constexpr std::uint64_t most_strings = std::uint64_t{1} << 15U;
+  while (SparseStrings::count(bits, most_ones) > most_strings) --bits;
+  return bits;
 }
 
-std::uint64_t Diagrams::hash(std::uint32_t bit, Set no, Set yes) {
-  return mix(mix((std::uint64_t{no} << 32U) | yes) ^ bit);
+Diagrams::Diagrams(std::uint32_t bits, std::uint32_t tail, std::uint32_t most_ones)
+    : bits_(bits),
+      tails_(tail, most_ones),
+      first_of_tail_(bits - tail),
+      row_words_(tails_.words()),
+      row_(row_words_, 0),
+      table_(first_table, 0),
+      remembered_(first_table) {
+  static_cast<void>(add_leaf(0, 0));
+  for (std::uint32_t string = 0; string < tails_.count(); ++string) set_bit(row_.data(), string);
+  static_cast<void>(make_leaf());
+}
+
+std::uint64_t Diagrams::hash(const Node& node) const {
+  if (node.bit == first_of_tail_) return hash(&rows_[node.no * row_words_]);
+  return mix(mix((std::uint64_t{node.no} << 32U) | node.yes) ^ node.bit);
+}
+
+std::uint64_t Diagrams::hash(const Word* row) const {
+  std::uint64_t hash = 0;
+  for (std::size_t word = 0; word < row_words_; ++word) hash = mix(hash ^ row[word]);
+  return hash;
 }
 
 std::uint64_t Diagrams::count_from(Set a, std::uint32_t bit) const {
@@ -53,23 +77,53 @@ std::uint64_t Diagrams::count(Set a) const { return count_from(a, 0); }
 
 Diagrams::Set Diagrams::make(std::uint32_t bit, Set no, Set yes) {
   if (no == yes) return no;
+  const Node made{bit, no, yes};
   const std::size_t mask = table_.size() - 1;
-  std::size_t place = hash(bit, no, yes) & mask;
+  std::size_t place = hash(made) & mask;
   for (; table_[place] != 0; place = (place + 1) & mask) {
     const Node& node = nodes_[table_[place]];
     if (node.no == no && node.yes == yes && node.bit == bit) return table_[place];
   }
-  Set number = 0;
+  return add_node(place, made, sum(count_from(no, bit + 1), count_from(yes, bit + 1)));
+}
+
+/// The leaf of `row_`. The empty one is in no table.
+Diagrams::Set Diagrams::make_leaf() {
+  std::uint64_t count = 0;
+  for (const Word word : row_) count += static_cast<std::uint64_t>(std::popcount(word));
+  if (count == 0) return empty;
+  const std::size_t mask = table_.size() - 1;
+  std::size_t place = hash(row_.data()) & mask;
+  for (; table_[place] != 0; place = (place + 1) & mask) {
+    const Set known = table_[place];
+    if (is_leaf(known) && std::equal(row_.begin(), row_.end(), row_of(known))) return known;
+  }
+  return add_leaf(place, count);
+}
+
+Diagrams::Set Diagrams::add_leaf(std::size_t place, std::uint64_t count) {
+  auto row = static_cast<std::uint32_t>(rows_.size() / row_words_);
+  if (free_rows_.empty()) {
+    rows_.insert(rows_.end(), row_.begin(), row_.end());
+  } else {
+    row = free_rows_.back();
+    free_rows_.pop_back();
+    std::copy(row_.begin(), row_.end(), &rows_[row * row_words_]);
+  }
+  return add_node(place, {first_of_tail_, row, 0}, count);
+}
+
+Diagrams::Set Diagrams::add_node(std::size_t place, const Node& node, std::uint64_t count) {
+  auto number = static_cast<Set>(nodes_.size());
   if (free_.empty()) {
-    number = static_cast<Set>(nodes_.size());
-    nodes_.emplace_back();
-    counts_.push_back(0);
+    nodes_.push_back(node);
+    counts_.push_back(count);
   } else {
     number = free_.back();
     free_.pop_back();
+    nodes_[number] = node;
+    counts_[number] = count;
   }
-  nodes_[number] = {bit, no, yes};
-  counts_[number] = sum(count_from(no, bit + 1), count_from(yes, bit + 1));
   table_[place] = number;
   if (++in_table_ * 2 > table_.size()) grow_table();
   return number;
@@ -77,7 +131,7 @@ Diagrams::Set Diagrams::make(std::uint32_t bit, Set no, Set yes) {
 
 void Diagrams::add_to_table(Set node) {
   const std::size_t mask = table_.size() - 1;
-  std::size_t place = hash(nodes_[node].bit, nodes_[node].no, nodes_[node].yes) & mask;
+  std::size_t place = hash(nodes_[node]) & mask;
   while (table_[place] != 0) place = (place + 1) & mask;
   table_[place] = node;
 }
@@ -102,12 +156,25 @@ Diagrams::Remembered& Diagrams::place_of(const Key& key) {
 }
 
 Diagrams::Set Diagrams::with(std::uint32_t bit, bool value) {
+  if (bit >= first_of_tail_) {
+    std::fill(row_.begin(), row_.end(), 0);
+    for (std::uint32_t string = 0; string < tails_.count(); ++string) {
+      const auto ones = tails_.ones_of(string);
+      const bool is_one = std::binary_search(ones.begin(), ones.end(), bit - first_of_tail_);
+      if (is_one == value) set_bit(row_.data(), string);
+    }
+    return make_leaf();
+  }
   return value ? make(bit, empty, all) : make(bit, all, empty);
 }
 
 Diagrams::Set Diagrams::with(const Values& values) {
   Set result = all;
   for (auto bit = values.bits.rbegin(); bit != values.bits.rend(); ++bit) {
+    if (bit->first >= first_of_tail_) {
+      result = both(result, with(bit->first, bit->second));
+      continue;
+    }
     result = bit->second ? make(bit->first, empty, result) : make(bit->first, result, empty);
   }
   return result;
@@ -139,6 +206,11 @@ Diagrams::Set Diagrams::combine(Operation operation, Set a, Set b) {
   const Key key = key_of(operation, a, b);
   if (const Remembered& known = place_of(key); known.key == key) return known.result;
   const std::uint32_t bit = std::min(nodes_[a].bit, nodes_[b].bit);
+  if (bit == first_of_tail_) {
+    const Set result = combine_leaves(operation, a, b);
+    place_of(key) = {key, result};
+    return result;
+  }
   const bool splits_a = nodes_[a].bit == bit;
   const bool splits_b = nodes_[b].bit == bit;
   const Set yes = combine(operation, splits_a ? nodes_[a].yes : a, splits_b ? nodes_[b].yes : b);
@@ -146,6 +218,17 @@ Diagrams::Set Diagrams::combine(Operation operation, Set a, Set b) {
   const Set result = make(bit, no, yes);
   place_of(key) = {key, result};
   return result;
+}
+
+Diagrams::Set Diagrams::combine_leaves(Operation operation, Set a, Set b) {
+  const Word* const of_a = row_of(a);
+  const Word* const of_b = row_of(b);
+  for (std::size_t word = 0; word < row_words_; ++word) {
+    row_[word] = operation == Operation::both     ? of_a[word] & of_b[word]
+                 : operation == Operation::either ? of_a[word] | of_b[word]
+                                                  : of_a[word] & ~of_b[word];
+  }
+  return make_leaf();
 }
 
 // Changes of bits.
@@ -198,6 +281,7 @@ Diagrams::Set Diagrams::before_change(Set a, ValuesNumber values) {
 
 Diagrams::ValuesNumber Diagrams::keep_bits(std::vector<bool> bits) {
   bits.resize(bits_, false);
+  tail_lists_.emplace_back(bits.begin() + first_of_tail_, bits.end());
   bit_lists_.push_back(std::move(bits));
   return static_cast<ValuesNumber>(bit_lists_.size() - 1);
 }
@@ -212,9 +296,15 @@ Diagrams::Set Diagrams::one_changed(Set a, std::uint32_t number, bool to, std::u
   const std::vector<bool>& listed = bit_lists_[number];
   // A node does not mention bits on which nothing depends, but these may change.
   while (bit < nodes_[a].bit && !listed[bit]) ++bit;
-  if (bit == bits_) return empty;
   const Key key = key_of(to ? Operation::set : Operation::clear, a, number, bit);
   if (const Remembered& known = place_of(key); known.key == key) return known.result;
+  if (bit == first_of_tail_) {
+    std::fill(row_.begin(), row_.end(), 0);
+    tails_.add_one_changed(row_of(a), tail_lists_[number], to, row_.data());
+    const Set result = make_leaf();
+    place_of(key) = {key, result};
+    return result;
+  }
   const bool splits = nodes_[a].bit == bit;
   const Set no = splits ? nodes_[a].no : a;
   const Set yes = splits ? nodes_[a].yes : a;
@@ -233,13 +323,14 @@ Diagrams::Set Diagrams::one_changed(Set a, std::uint32_t number, bool to, std::u
 }
 
 bool Diagrams::contains(Set a, const std::vector<std::uint8_t>& string) const {
-  while (a > all) a = string[nodes_[a].bit] != 0 ? nodes_[a].yes : nodes_[a].no;
-  return a == all;
+  while (!is_leaf(a)) a = string[nodes_[a].bit] != 0 ? nodes_[a].yes : nodes_[a].no;
+  const std::uint32_t tail = tails_.find(string.data() + first_of_tail_);
+  return tail < tails_.count() && has_bit(row_of(a), tail);
 }
 
 void Diagrams::pick(Set a, std::vector<std::uint8_t>& string) const {
   string.assign(bits_, 0);
-  while (a > all) {
+  while (!is_leaf(a)) {
     const Node& node = nodes_[a];
     if (node.no != empty) {
       a = node.no;
@@ -248,10 +339,18 @@ void Diagrams::pick(Set a, std::vector<std::uint8_t>& string) const {
       a = node.yes;
     }
   }
+  const Word* word = row_of(a);
+  while (*word == 0) ++word;
+  const std::size_t first = static_cast<std::size_t>(word - row_of(a)) * 64 +
+                            static_cast<std::size_t>(std::countr_zero(*word));
+  for (const std::uint32_t place : tails_.ones_of(static_cast<std::uint32_t>(first))) {
+    string[first_of_tail_ + place] = 1;
+  }
 }
 
 std::size_t Diagrams::bytes() const {
-  return nodes_.capacity() * (sizeof(Node) + sizeof(std::uint64_t)) + table_.size() * sizeof(Set) +
+  return nodes_.capacity() * (sizeof(Node) + sizeof(std::uint64_t)) +
+         rows_.capacity() * sizeof(Word) + table_.size() * sizeof(Set) +
          remembered_.size() * sizeof(Remembered);
 }
 
@@ -270,6 +369,7 @@ void Diagrams::mark(Set kept) {
     to_mark_.pop_back();
     if (number <= all || is_marked_[number]) continue;
     is_marked_[number] = true;
+    if (is_leaf(number)) continue;
     to_mark_.push_back(node.no);
     to_mark_.push_back(node.yes);
   }
@@ -278,11 +378,15 @@ void Diagrams::mark(Set kept) {
 void Diagrams::end_collection() {
   std::fill(table_.begin(), table_.end(), 0);
   std::fill(remembered_.begin(), remembered_.end(), Remembered());
-  free_.clear();
-  in_table_ = 0;
+  add_to_table(all);
+  in_table_ = 1;
+  std::vector<bool> is_free(nodes_.size(), false);
+  for (const Set number : free_) is_free[number] = true;
   for (Set number = static_cast<Set>(nodes_.size()); number-- > 2;) {
     if (!is_marked_[number]) {
+      if (is_free[number]) continue;
       free_.push_back(number);
+      if (is_leaf(number)) free_rows_.push_back(nodes_[number].no);
       continue;
     }
     add_to_table(number);

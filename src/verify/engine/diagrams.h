@@ -6,12 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "verify/engine/bit_sets.h"
+#include "verify/engine/sparse_strings.h"
+
 namespace cbc {
 
 /// Sets of bit strings of one length, as reduced ordered binary decision diagrams (R. E. Bryant,
 /// "Graph-based algorithms for Boolean function manipulation", IEEE Transactions on Computers C-35
-/// (1986)). Equal sets are the same number. Each node knows the size of its set. Not for use by
-/// several threads.
+/// (1986)), but that the last bits, the tail, of which few are ones, are decided at once. Equal
+/// sets are the same number. Each node knows the size of its set. Not for use by several threads.
 class Diagrams {
  public:
   using Set = std::uint32_t;
@@ -24,7 +27,12 @@ class Diagrams {
   };
   using ValuesNumber = std::uint32_t;
 
-  explicit Diagrams(std::uint32_t bits);
+  /// Strings with more than `most_ones` ones among the last `tail` of the bits do not exist. The
+  /// others of the tail take a bit of memory each in a leaf; see tail_for().
+  explicit Diagrams(std::uint32_t bits, std::uint32_t tail = 0, std::uint32_t most_ones = 0);
+
+  /// The longest tail of at most so many bits for which leaves stay small.
+  [[nodiscard]] static std::uint32_t tail_for(std::uint32_t bits, std::uint32_t most_ones);
 
   [[nodiscard]] std::uint32_t bits() const { return bits_; }
 
@@ -38,7 +46,7 @@ class Diagrams {
   [[nodiscard]] Set without(Set a, Set b);
   [[nodiscard]] Set complement(Set a) { return without(all, a); }
 
-  /// Values for changed() and before_change(), kept as long as this object.
+  /// Values for changed() and before_change(), none of the tail; kept as long as this object.
   [[nodiscard]] ValuesNumber keep(Values values);
   /// The strings of the set after their bits got these values.
   [[nodiscard]] Set changed(Set a, ValuesNumber values);
@@ -72,8 +80,8 @@ class Diagrams {
 
  private:
   struct Node {
-    std::uint32_t bit = 0;
-    Set no = empty;
+    std::uint32_t bit = 0;  ///< of a leaf: the first of the tail
+    Set no = empty;         ///< of a leaf: the number of its row
     Set yes = empty;
   };
   enum class Operation : std::uint32_t {
@@ -99,6 +107,12 @@ class Diagrams {
   };
 
   [[nodiscard]] Set make(std::uint32_t bit, Set no, Set yes);
+  [[nodiscard]] bool is_leaf(Set a) const { return nodes_[a].bit == first_of_tail_; }
+  [[nodiscard]] const Word* row_of(Set leaf) const { return &rows_[nodes_[leaf].no * row_words_]; }
+  [[nodiscard]] Set add_node(std::size_t place, const Node& node, std::uint64_t count);
+  [[nodiscard]] Set make_leaf();
+  [[nodiscard]] Set add_leaf(std::size_t place, std::uint64_t count);
+  [[nodiscard]] Set combine_leaves(Operation operation, Set a, Set b);
   [[nodiscard]] std::uint64_t count_from(Set a, std::uint32_t bit) const;
   [[nodiscard]] static Key key_of(Operation operation, Set a, std::uint32_t b,
                                   std::uint32_t c = 0) {
@@ -108,7 +122,8 @@ class Diagrams {
   [[nodiscard]] Set combine(Operation operation, Set a, Set b);
   [[nodiscard]] Set forget(Set a, std::uint32_t number);
   [[nodiscard]] Set one_changed(Set a, std::uint32_t number, bool to, std::uint32_t bit);
-  [[nodiscard]] static std::uint64_t hash(std::uint32_t bit, Set no, Set yes);
+  [[nodiscard]] std::uint64_t hash(const Node& node) const;
+  [[nodiscard]] std::uint64_t hash(const Word* row) const;
   void add_to_table(Set node);
   void grow_table();
   void begin_collection();
@@ -116,15 +131,22 @@ class Diagrams {
   void end_collection();
 
   const std::uint32_t bits_;
+  const SparseStrings tails_;
+  const std::uint32_t first_of_tail_;
+  const std::size_t row_words_;
   std::vector<Node> nodes_;
   std::vector<std::uint64_t> counts_;  ///< by node: strings of its bit and those after it
+  std::vector<Word> rows_;             ///< of leaves: the tails that they have
+  std::vector<Word> row_;              ///< a new one
   std::vector<Set> free_;
+  std::vector<std::uint32_t> free_rows_;
   std::vector<Set> table_;  ///< of nodes by their hash; 0: none
   std::size_t in_table_ = 0;
   std::vector<Remembered> remembered_;
   std::vector<Values> values_;
   std::vector<Set> cubes_;  ///< by number of values
   std::vector<std::vector<bool>> bit_lists_;
+  std::vector<std::vector<bool>> tail_lists_;  ///< of those, the tail
   std::vector<Set> to_mark_;
   std::vector<bool> is_marked_;
   std::size_t most_before_collection_ = std::size_t{1} << 20U;

@@ -26,14 +26,27 @@ std::uint32_t bits_of(const Model& model) {
   return bits;
 }
 
+/// The faults, of which there are few at a time, are the last bits.
+std::uint32_t tail_of(const Model& model) {
+  return Diagrams::tail_for(model.layout().faulty_count, model.assumptions().faults);
+}
+
 }  // namespace
 
-Environments::Environments(const Model& model) : model_(model), sets_(bits_of(model)) {
+Environments::Environments(const Model& model, bool has_mark)
+    : model_(model),
+      sets_(bits_of(model) + (has_mark ? 1 : 0), tail_of(model), model.assumptions().faults) {
   for (const Model::Variable& variable : model_.variables()) {
     first_bit_.push_back(variable.cell != none ? first_own_ : none);
     first_own_ += width_of(variable);
   }
-  first_fault_ = first_own_ + model_.layout().own_count;
+  mark_bit_ = first_own_ + model_.layout().own_count;
+  first_fault_ = mark_bit_ + (has_mark ? 1 : 0);
+  if (has_mark) {
+    marked_ = sets_.with(mark_bit_, true);
+    mark_set_ = sets_.keep({{{mark_bit_, true}}});
+    mark_cleared_ = sets_.keep({{{mark_bit_, false}}});
+  }
   find_conditions();
   find_never();
   count_faults_in_all();
@@ -63,9 +76,8 @@ Environments::Set Environments::denied(std::uint32_t behavior) {
   return has_bit(model_.denied().data(), behavior) ? Diagrams::all : Diagrams::empty;
 }
 
-Environments::Set Environments::faulty(std::uint32_t behavior) {
-  if (model_.layout().faulty_count == 0) return Diagrams::empty;
-  return sets_.with(first_fault_ + behavior, true);
+Environments::Set Environments::faulty(std::uint32_t behavior) const {
+  return faulty_.empty() ? Diagrams::empty : faulty_[behavior];
 }
 
 void Environments::find_conditions() {
@@ -104,11 +116,14 @@ void Environments::find_never() {
 
 void Environments::count_faults_in_all() {
   const std::uint32_t behaviors = model_.layout().faulty_count;
+  for (std::uint32_t behavior = 0; behavior < behaviors; ++behavior) {
+    faulty_.push_back(sets_.with(first_fault_ + behavior, true));
+  }
   const std::uint32_t most = std::min(model_.assumptions().faults, behaviors);
   exactly_.assign(most + 1, Diagrams::empty);
   exactly_[0] = Diagrams::all;
   for (std::uint32_t behavior = behaviors; behavior-- > 0;) {
-    const Set faulty = sets_.with(first_fault_ + behavior, true);
+    const Set faulty = faulty_[behavior];
     for (std::uint32_t count = most + 1; count-- > 0;) {
       const Set one_more = count > 0 ? sets_.both(exactly_[count - 1], faulty) : Diagrams::empty;
       exactly_[count] = sets_.either(sets_.without(exactly_[count], faulty), one_more);
@@ -208,6 +223,22 @@ Environments::Set Environments::query(const Effect& effect, EnvironmentQuery que
 
 const Stepper::Possible& Environments::possible_after(const Effect& effect) {
   return table_of(effect).possible;
+}
+
+// The mark.
+
+Environments::Set Environments::with_mark(Set set, Set to_set, Set to_clear) {
+  const Set kept = sets_.without(sets_.without(set, to_set), to_clear);
+  const Set newly = sets_.changed(sets_.both(set, to_set), mark_set_);
+  const Set cleared = sets_.changed(sets_.both(set, to_clear), mark_cleared_);
+  return sets_.either(kept, sets_.either(newly, cleared));
+}
+
+Environments::Set Environments::before_mark(Set set, Set to_set, Set to_clear) {
+  const Set kept = sets_.without(sets_.without(set, to_set), to_clear);
+  const Set newly = sets_.both(sets_.before_change(set, mark_set_), to_set);
+  const Set cleared = sets_.both(sets_.before_change(set, mark_cleared_), to_clear);
+  return sets_.either(kept, sets_.either(newly, cleared));
 }
 
 // Environments of states.

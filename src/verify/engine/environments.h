@@ -17,7 +17,8 @@ class Environments {
  public:
   using Set = Diagrams::Set;
 
-  explicit Environments(const Model& model);
+  /// `has_mark`: environments have a mark, besides what the model has.
+  explicit Environments(const Model& model, bool has_mark = false);
 
   [[nodiscard]] Diagrams& sets() { return sets_; }
   [[nodiscard]] const Diagrams& sets() const { return sets_; }
@@ -30,9 +31,19 @@ class Environments {
   // Conditions, as sets of all environments that satisfy them.
 
   [[nodiscard]] Set available(std::uint32_t behavior) const { return available_[behavior]; }
-  [[nodiscard]] Set faulty(std::uint32_t behavior);
+  [[nodiscard]] Set faulty(std::uint32_t behavior) const;
   [[nodiscard]] Set denied(std::uint32_t behavior);
   [[nodiscard]] Set with_value(std::uint32_t variable, std::uint32_t value);
+
+  /// Those with the mark.
+  [[nodiscard]] Set marked() const { return marked_; }
+  /// Sets the mark in one part of a set, and clears it in another.
+  [[nodiscard]] Set with_mark(Set set, Set to_set, Set to_clear);
+  /// What with_mark() makes a part of `set`.
+  [[nodiscard]] Set before_mark(Set set, Set to_set, Set to_clear);
+  void write_mark(bool mark, std::vector<std::uint8_t>& string) const {
+    string[mark_bit_] = mark ? 1 : 0;
+  }
 
   /// What a move does to environments.
   struct Effect {
@@ -66,10 +77,11 @@ class Environments {
   /// What must survive Diagrams::collect().
   template <typename Keep>
   void for_each_kept(Keep&& keep) const {
-    for (const auto* list : {&fitting_, &available_, &exactly_}) {
+    for (const auto* list : {&fitting_, &available_, &faulty_, &exactly_}) {
       for (const Set set : *list) keep(set);
     }
     keep(never_);
+    keep(marked_);
     keep(room_);
     for (const Effect& effect : effects_) keep(effect.condition);
     for (const Table& table : tables_) {
@@ -97,11 +109,16 @@ class Environments {
   const Model& model_;
   std::vector<std::uint32_t> first_bit_;  ///< by variable; none: it does not change
   std::uint32_t first_own_ = 0;
+  std::uint32_t mark_bit_ = 0;
   std::uint32_t first_fault_ = 0;
   Diagrams sets_;
   std::vector<Set> fitting_;
   std::vector<Set> available_;
+  std::vector<Set> faulty_;  ///< by behavior; empty if nothing becomes faulty
   Set never_ = Diagrams::empty;
+  Set marked_ = Diagrams::empty;
+  Diagrams::ValuesNumber mark_set_ = 0;
+  Diagrams::ValuesNumber mark_cleared_ = 0;
   std::vector<Set> exactly_;    ///< by number of faults, up to the most: the environments with it
   Set room_ = Diagrams::empty;  ///< those in which one more behavior may become faulty
   Diagrams::ValuesNumber all_faults_ = 0;

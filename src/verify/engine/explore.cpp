@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <utility>
@@ -28,183 +29,13 @@ namespace {
 
 using Set = Environments::Set;
 using States = StateSpace::States;
-constexpr std::uint32_t never_seen = UINT32_MAX;
-
-/// A condition on the states of a model.
-class StateTest {
- public:
-  StateTest(const Model& model, Environments& environments, const StateCondition& condition)
-      : environments_(environments) {
-    for (const StateCondition::Running& running : condition.running) {
-      const std::uint32_t task = model.find_task(running.task);
-      if (running.behavior == none) {
-        add([](const Stepper& state, Part part) { return state.cells()[part.subject] != 0; }, task);
-      } else {
-        add([](const Stepper& state,
-               Part part) { return state.cells()[part.subject] == part.wanted; },
-            task, cell_of(model, task, model.find_behavior(running.behavior)));
-      }
-    }
-    for (const TaskId task : condition.stopped) {
-      add([](const Stepper& state, Part part) { return state.cells()[part.subject] == 0; },
-          model.find_task(task));
-    }
-    for (const BehaviorId behavior : condition.active) {
-      add([](const Stepper& state,
-             Part part) { return has_bit(state.active().data(), part.subject); },
-          model.find_behavior(behavior));
-    }
-    if (condition.only_active) add_others(model, condition.active);
-    for (const StateCondition::Requested& requested : condition.requested) {
-      add([](const Stepper& state,
-             Part part) { return state.request_of(part.subject) >= part.wanted; },
-          model.find_task(requested.task), model.rank_of(requested.priority) + 1U);
-    }
-    for (const VariableValue& value : condition.situation.variables) {
-      add(environments.with_value(model.find_variable(value.variable), value.value));
-    }
-    for (const SituationPart::Own& own : condition.situation.behaviors) {
-      const Set denied = environments.denied(model.find_behavior(own.behavior));
-      add(own.available ? environments.sets().complement(denied) : denied);
-    }
-    for (const BehaviorId behavior : condition.faulty) {
-      add(environments.faulty(model.find_behavior(behavior)));
-    }
-    for (const BehaviorId behavior : condition.available) {
-      add(environments.available(model.find_behavior(behavior)));
-    }
-  }
-
-  /// The environments in which it holds, with the control that the stepper has loaded.
-  [[nodiscard]] Set holds_in(const Stepper& control) const {
-    const bool may_hold = std::all_of(tests_.begin(), tests_.end(), [&](const Test& test) {
-      return test.holds(control, test.part);
-    });
-    return may_hold ? in_environment_ : Diagrams::empty;
-  }
-  [[nodiscard]] Set in_environment() const { return in_environment_; }
-
- private:
-  struct Part {
-    std::uint32_t subject = 0;
-    std::uint32_t wanted = 0;
-  };
-  struct Test {
-    bool (*holds)(const Stepper& state, Part part);
-    Part part;
-  };
-
-  void add(bool (*test)(const Stepper&, Part), std::uint32_t subject, std::uint32_t wanted = 0) {
-    tests_.push_back({test, {subject, wanted}});
-  }
-  void add(Set environments) {
-    in_environment_ = environments_.sets().both(in_environment_, environments);
-  }
-  /// The behaviors that are not listed are not active.
-  void add_others(const Model& model, const std::vector<BehaviorId>& listed) {
-    for (std::uint32_t behavior = 0; behavior < model.behaviors().size(); ++behavior) {
-      const BehaviorId id = model.behaviors()[behavior].id;
-      if (std::find(listed.begin(), listed.end(), id) != listed.end()) continue;
-      add([](const Stepper& state,
-             Part part) { return !has_bit(state.active().data(), part.subject); },
-          behavior);
-    }
-  }
-  /// None, which no cell has, if the behavior does not perform the task.
-  [[nodiscard]] static std::uint32_t cell_of(const Model& model, std::uint32_t task,
-                                             std::uint32_t behavior) {
-    const BitRange values = model.tasks()[task].values;
-    for (std::uint32_t value = values.begin; value < values.end; ++value) {
-      if (model.behavior_of(value) == behavior) return value - values.begin + 1;
-    }
-    return none;
-  }
-
-  Environments& environments_;
-  std::vector<Test> tests_;  ///< of the control
-  Set in_environment_ = Diagrams::all;
-};
-
-/// Looks for the first states that break a property or, of reachable, show it.
-class PropertyTest {
- public:
-  PropertyTest(const Property& property, const Model& model, StateSpace& space)
-      : property_(property) {
-    if (property.kind == Property::Kind::can_start) {
-      start_ = space.controls().find_start(model.find_task(property.task),
-                                           model.ranks_up_to(property.priority));
-      return;
-    }
-    condition_.emplace(model, space.environments(), property.condition);
-    keep(space, condition_->in_environment());
-    if (!property.when) return;
-    when_.emplace(model, space.environments(), *property.when);
-    keep(space, when_->in_environment());
-  }
-
-  void visit(const States& states, std::uint32_t depth, StateSpace& space) {
-    if (!condition_ || first_ < depth) return;
-    const Stepper& control = space.controls().stepper();
-    if (property_.settled && !control.is_settled()) return;
-    Diagrams& sets = space.environments().sets();
-    Set met = states.environments;
-    if (when_) met = sets.both(met, when_->holds_in(control));
-    const Set holds = condition_->holds_in(control);
-    met =
-        property_.kind == Property::Kind::always ? sets.without(met, holds) : sets.both(met, holds);
-    note({states.control, met}, depth, space);
-  }
-
-  /// Of states in which the task does not run.
-  void on_refusal(std::uint32_t action, const States& states, std::uint32_t depth,
-                  StateSpace& space) {
-    if (action == start_ && first_ >= depth) note(states, depth, space);
-  }
-
-  [[nodiscard]] Verdict verdict(const CompiledCatalog& catalog, StateSpace& space) const {
-    Verdict verdict;
-    const bool is_reachable = property_.kind == Property::Kind::reachable;
-    if (first_ == never_seen) {
-      if (space.is_complete()) {
-        verdict.result = is_reachable ? Verdict::Result::violated : Verdict::Result::proved;
-      }
-      return verdict;
-    }
-    verdict.result = is_reachable ? Verdict::Result::proved : Verdict::Result::violated;
-    verdict.has_script = true;
-    verdict.script = space.path_to(met_, first_);
-    if (property_.kind == Property::Kind::can_start) {
-      const std::uint32_t index = catalog.tasks[property_.task].catalog_index;
-      verdict.script.push_back({Move::Kind::start, index, property_.priority});
-    }
-    return verdict;
-  }
-
- private:
-  static void keep(StateSpace& space, Set set) { space.keep({0, set}); }
-  void note(const States& states, std::uint32_t depth, StateSpace& space) {
-    if (states.environments == Diagrams::empty) return;
-    first_ = depth;
-    if (met_.empty() || met_.back().control != states.control) {
-      met_.push_back({states.control, Diagrams::empty});
-    }
-    Set& known = met_.back().environments;
-    known = space.environments().sets().either(known, states.environments);
-    space.keep(met_.back());
-  }
-
-  const Property& property_;
-  std::uint32_t start_ = none;  ///< of can_start: the action
-  std::optional<StateTest> condition_;
-  std::optional<StateTest> when_;
-  std::uint32_t first_ = never_seen;  ///< the depth
-  std::vector<States> met_;           ///< of that depth, one after the other by control
-};
+constexpr std::uint32_t never_seen = PropertyTest::never_seen;
 
 /// Notes the least depth at which something was seen, and looks at properties.
 class PropertyVisitor {
  public:
-  PropertyVisitor(const Model& model, StateSpace& space, std::vector<PropertyTest>& properties)
+  PropertyVisitor(const Model& model, StateSpace& space,
+                  const std::vector<std::unique_ptr<PropertyTest>>& properties)
       : model_(model),
         space_(space),
         properties_(properties),
@@ -212,6 +43,9 @@ class PropertyVisitor {
         active_(model.behaviors().size(), never_seen),
         start_refused_(model.tasks().size(), never_seen),
         together_(model.tasks().size() * words_for(model.tasks().size()), 0) {
+    for (const auto& property : properties) {
+      if (property->looks_at_moves()) of_moves_.push_back(property.get());
+    }
     for (std::uint32_t task = 0; task < model.tasks().size(); ++task) {
       if (!model.tasks()[task].start_on_request) continue;
       const std::uint32_t trial = space.controls().find_start(task, model.ranks_up_to(1));
@@ -224,16 +58,26 @@ class PropertyVisitor {
     depth_ = depth;
     if (states.control >= is_known_.size()) is_known_.resize(space_.controls().size(), 0);
     if (std::exchange(is_known_[states.control], std::uint8_t{1}) == 0) visit_control();
-    for (PropertyTest& property : properties_) property.visit(states, depth, space_);
+    for (const auto& property : properties_) property->visit(states, depth);
   }
 
   void on_refusal(std::uint32_t action, const States& states) {
     const Controls& controls = space_.controls();
     if (controls.stepper().cells()[controls.actions()[action].choice.subject] != 0) return;
     if (action < trials_.size() && trials_[action] != none) note(start_refused_[trials_[action]]);
-    for (PropertyTest& property : properties_) {
-      property.on_refusal(action, states, depth_, space_);
+    for (const auto& property : properties_) property->on_refusal(action, states, depth_);
+  }
+
+  void on_outcome(std::uint32_t action, const States& states, Controls::Outcome outcome) const {
+    for (PropertyTest* const property : of_moves_) {
+      property->on_outcome(action, states, outcome, depth_);
     }
+  }
+
+  [[nodiscard]] bool is_done() const {
+    return !properties_.empty() &&
+           std::all_of(properties_.begin(), properties_.end(),
+                       [](const auto& property) { return property->is_decided(); });
   }
 
   void report(Exploration& result) const;
@@ -271,8 +115,9 @@ class PropertyVisitor {
 
   const Model& model_;
   StateSpace& space_;
-  std::vector<PropertyTest>& properties_;
-  std::vector<std::uint32_t> trials_;  ///< by action: the task whose start is tried, or none
+  const std::vector<std::unique_ptr<PropertyTest>>& properties_;
+  std::vector<PropertyTest*> of_moves_;  ///< those that look at moves
+  std::vector<std::uint32_t> trials_;    ///< by action: the task whose start is tried, or none
   std::uint32_t depth_ = 0;
   std::vector<std::uint8_t> is_known_;  ///< by control
   std::vector<std::uint32_t> runs_;
@@ -389,21 +234,32 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& 
     memory -= of_pairs;
   }
   const Stepper::Options of_stepper = share_memory(options, limits.max_memory);
-  StateSpace space(model, of_stepper, limits, [&](const ExplorationProgress& progress) {
-    return !options.on_progress || options.on_progress(groups, progress);
-  });
-  std::vector<PropertyTest> tests;
+  std::optional<StateSpace::Mark> mark;
+  if (!properties.empty() && properties.front()->after) {
+    mark = {*properties.front()->after, properties.front()->until};
+  }
+  StateSpace space(
+      model, of_stepper, limits,
+      [&](const ExplorationProgress& progress) {
+        return !options.on_progress || options.on_progress(groups, progress);
+      },
+      mark);
+  std::vector<std::unique_ptr<PropertyTest>> tests;
   tests.reserve(properties.size());
-  for (const Property* const property : properties) tests.emplace_back(*property, model, space);
+  for (const Property* const property : properties) {
+    tests.push_back(make_property_test(*property, model, space));
+  }
   PropertyVisitor visitor(model, space, tests);
   space.run(visitor);
+  for (const auto& test : tests) result.verdicts.push_back(test->verdict());
 
   const Decisions& decisions = space.controls().stepper().decisions();
   result.decisions_remembered = decisions.remembered();
   result.decisions_computed = decisions.computed();
   result.complete = space.is_complete();
   result.reduced = options.reduce;
-  if (!result.complete) result.end = space.end();
+  result.decided = space.is_decided();
+  if (!result.complete && !result.decided) result.end = space.end();
   result.states = space.states();
   result.transitions = space.transitions();
   result.depth = space.expanded_depth();
@@ -413,7 +269,6 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& 
   result.regions = space.controls().regions();
   result.diagram_nodes = space.environments().sets().nodes();
   visitor.report(result);
-  for (const PropertyTest& test : tests) result.verdicts.push_back(test.verdict(catalog, space));
   return result;
 }
 
@@ -425,17 +280,19 @@ bool Verification::is_complete() const {
 PropertyScope scope_of(const CompiledCatalog& catalog, const Property& property) {
   std::set<GroupId> groups;
   if (property.task != none) groups.insert(catalog.tasks[property.task].group);
-  add_groups(catalog, property.condition, groups);
-  if (property.when) add_groups(catalog, *property.when, groups);
+  const std::vector<const StateCondition*> conditions = conditions_of(property);
+  for (const StateCondition* condition : conditions) add_groups(catalog, *condition, groups);
   if (groups.empty()) {
-    add_groups_of_variables(catalog, property.condition, groups);
-    if (property.when) add_groups_of_variables(catalog, *property.when, groups);
+    for (const StateCondition* condition : conditions) {
+      add_groups_of_variables(catalog, *condition, groups);
+    }
   }
   std::set<std::uint32_t> variables = variables_of(property);
   for (const FittingValue& fitting : catalog.fitting_values) {
     if (groups.contains(catalog.group_of(fitting.behavior))) variables.erase(fitting.variable);
   }
-  return {{groups.begin(), groups.end()}, std::move(variables)};
+  return {
+      {groups.begin(), groups.end()}, std::move(variables), property.after ? &property : nullptr};
 }
 
 namespace {

@@ -14,6 +14,7 @@
 #include "runtime/compiled/compiled_catalog.h"
 #include "verify/engine/breadth_first.h"
 #include "verify/engine/model.h"
+#include "verify/engine/property_test.h"
 #include "verify/engine/witness.h"
 
 namespace cbc {
@@ -33,22 +34,13 @@ struct ExplorationOptions {
   std::function<bool(const std::vector<GroupId>& groups, const ExplorationProgress&)> on_progress;
 };
 
-/// What was found out about one property.
-struct Verdict {
-  enum class Result : std::uint8_t { proved, violated, undecided };
-  Result result = Result::undecided;
-  /// The shortest counterexample; of a reachable that is proved, the shortest witness; empty if the
-  /// first state is one, or there is none. Of can_start the refused start is its last move.
-  std::vector<Move> script;
-  bool has_script = false;
-};
-
 /// The result of the exploration of some groups.
 struct Exploration {
   std::vector<GroupId> groups;        ///< ascending
-  bool complete = false;              ///< false: a limit ended it
+  bool complete = false;              ///< all states were visited
+  bool decided = false;               ///< it ended as soon as all properties were decided
   bool reduced = false;               ///< see ExplorationOptions::reduce
-  std::optional<ExplorationEnd> end;  ///< which one; if not complete
+  std::optional<ExplorationEnd> end;  ///< the limit that ended it; if there was one
   std::uint64_t states = 0;
   std::uint64_t transitions = 0;
   /// The length of the longest shortest path. Not complete: every state up to this depth was
@@ -79,9 +71,9 @@ struct Exploration {
   std::uint64_t bytes = 0;          ///< of all this
 };
 
-/// Visits every reachable state of the groups. Same results for any number of jobs. `properties`
-/// are about tasks and behaviors of these groups only; the variables that they name are part of the
-/// state.
+/// Visits every reachable state of the groups, or as many as it takes to decide all properties.
+/// Same results for any number of jobs. `properties` are about tasks and behaviors of these groups
+/// only; the variables that they name are part of the state. One with a mark must be the only one.
 [[nodiscard]] Exploration explore(const CompiledCatalog& catalog,
                                   const std::vector<GroupId>& groups,
                                   const Assumptions& assumptions,
@@ -123,6 +115,8 @@ struct PropertyScope {
   std::vector<GroupId> groups;
   /// The variables that it names, but no behavior of these groups does.
   std::set<std::uint32_t> variables;
+  /// Of a property with Property::after, whose mark is part of the state: itself.
+  const Property* marked = nullptr;
 
   auto operator<=>(const PropertyScope&) const = default;
 };

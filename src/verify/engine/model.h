@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -12,32 +11,13 @@
 
 #include "core/property/properties.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "verify/engine/bit_sets.h"
 
 namespace cbc {
 
 // What the states and moves of some groups consist of (docs/verify.md, "States" and "Moves"): the
 // tasks, behaviors and variables with numbers of their own, the layout of a packed state, and all
 // moves in their order.
-
-using Word = std::uint64_t;
-
-// Bit sets are arrays of words whose lengths the model knows.
-
-[[nodiscard]] constexpr std::size_t words_for(std::size_t bits) { return (bits + 63) / 64; }
-[[nodiscard]] inline bool has_bit(const Word* words, std::size_t bit) {
-  return ((words[bit / 64] >> (bit % 64)) & 1) != 0;
-}
-inline void set_bit(Word* words, std::size_t bit) { words[bit / 64] |= Word{1} << (bit % 64); }
-inline void clear_bit(Word* words, std::size_t bit) { words[bit / 64] &= ~(Word{1} << (bit % 64)); }
-template <typename Function>
-void for_each_bit(const Word* words, std::size_t count, Function&& function) {
-  for (std::size_t word = 0; word < count; ++word) {
-    for (Word bits = words[word]; bits != 0; bits &= bits - 1) {
-      function(
-          static_cast<std::uint32_t>(word * 64 + static_cast<unsigned>(std::countr_zero(bits))));
-    }
-  }
-}
 
 /// One move. Moves are compared in the order of the kinds, then by `subject`, then by `choice` in
 /// the order in which priorities or values are listed.
@@ -214,6 +194,12 @@ class Model {
 
   void pack(const std::uint16_t* cells, std::uint32_t* packed) const;
   void unpack(const std::uint32_t* packed, std::uint16_t* cells) const;
+  /// A cell of a packed state.
+  [[nodiscard]] std::uint16_t cell_of(const std::uint32_t* packed, std::uint32_t cell) const {
+    const Field& field = fields_[cell];
+    return static_cast<std::uint16_t>((packed[field.word] >> field.shift) &
+                                      ((std::uint32_t{1} << field.width) - 1));
+  }
 
  private:
   void add_groups(const std::vector<GroupId>& groups);

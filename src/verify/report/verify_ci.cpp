@@ -27,6 +27,11 @@ TestCase case_of(const VerifyResult& result, const VerifyPart& part,
   const Property& property = *answer.property;
   const std::string title = title_of(*result.catalog, property);
   TestCase test{fmt::format("line {}: {}", property.line, title)};
+  if (answer.verdict.is_vacuous) {
+    test.annotations.push_back({Severity::warning, place_of_line(property.line),
+                                "cbc property proved vacuously",
+                                title + "\nproved only since " + describe_vacuity(property)});
+  }
   if (answer.verdict.result == Verdict::Result::proved) return test;
   const bool is_violated = answer.verdict.result == Verdict::Result::violated;
   test.status = is_violated ? TestCase::Status::failed : TestCase::Status::error;

@@ -81,8 +81,13 @@ constexpr auto exploration = object(
                      &Exploration::reduced),
             member("complete", boolean,
                    "Whether every reachable state was visited; false: a limit ended the "
-                   "exploration.",
+                   "exploration, or all properties were decided before.",
                    &Exploration::complete),
+            optional(
+                "decided", always_true,
+                "The exploration ended as soon as all its properties were decided; what is said "
+                "of it is what it had visited.",
+                &Exploration::decided),
             member("states", integer(1), "Number of states that were found.", &Exploration::states),
             member("transitions", count, "Number of pairs of a visited state and a move in it.",
                    &Exploration::transitions),
@@ -92,7 +97,7 @@ constexpr auto exploration = object(
                    &Exploration::depth),
             optional(
                 "states_at_depth", list(count),
-                "Only if a limit ended the exploration: the number of states at depth 0, 1 "
+                "Only if it is not complete: the number of states at depth 0, 1 "
                 "and so on, as far as it is known.",
                 [](const Exploration& of) { return of.complete ? nullptr : &of.states_at_depth; }),
             member("runs", map(task_at, count),
@@ -146,10 +151,12 @@ constexpr auto property =
             [](const Answered& of) -> const auto& { return of.part.file->path; }),
         member("line", line_number, "The line of the property in the file.",
                [](const Answered& of) { return of.property.line; }),
-        member("kind", words(Property::Kind::reachable),
+        member("kind", words(Property::Kind::always_possible),
                "can_start: wherever the task does not run, its start is accepted. always: the "
                "condition "
-               "holds in every state. never: it holds in none. reachable: it holds in some state.",
+               "holds in every state. never: it holds in none. reachable: it holds in some state. "
+               "keeps_running: no move ends the task while it is requested. always_possible: from "
+               "every state one can be reached in which the condition holds.",
                [](const Answered& of) { return of.property.kind; }),
         member("name", nullable(text), "The name; null if it has none.",
                [](const Answered& of) {
@@ -157,6 +164,9 @@ constexpr auto property =
                }),
         member("result", result_word, "",
                [](const Answered& of) { return of.answer.verdict.result; }),
+        optional("vacuous", always_true,
+                 "Proved only since `when` or `after` holds in no reachable state.",
+                 [](const Answered& of) { return of.answer.verdict.is_vacuous; }),
         script(
             "A shortest event script that breaks the property, or, for reachable, leads to such a "
             "state: its text, or with --scripts its path.",
@@ -177,7 +187,8 @@ constexpr auto property =
         .related(R"([
       {"$comment": "A counterexample, or of reachable a witness.",
        "if": {"anyOf": [
-         {"properties": {"kind": {"enum": ["can_start", "always", "never"]},
+         {"properties": {"kind": {"enum": ["can_start", "always", "never", "keeps_running",
+                                           "always_possible"]},
                          "result": {"const": "violated"}}},
          {"properties": {"kind": {"const": "reachable"}, "result": {"const": "proved"}}}]},
        "then": {"properties": {"length": {"type": "integer"}, "script": {"type": "string"}}},

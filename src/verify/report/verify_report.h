@@ -142,6 +142,9 @@ struct VerifyResult {
 /// The name of a property, or if it has none, what it says.
 [[nodiscard]] std::string title_of(const CompiledCatalog& catalog, const Property& property);
 
+/// Why no state counts for a property that is proved: "'when' holds in no reachable state".
+[[nodiscard]] std::string describe_vacuity(const Property& property);
+
 /// What ended an exploration that is not complete, how far it came, and how to go on.
 [[nodiscard]] std::string describe_limit(const VerifyResult& result,
                                          const Exploration& exploration);

@@ -111,6 +111,12 @@ std::string describe_comparison_end(const VerifyResult& result, ExplorationEnd e
   return describe_exploration_end(end, result.limits);
 }
 
+std::string describe_vacuity(const Property& property) {
+  if (!property.after) return "'when' holds in no reachable state";
+  return property.when ? "'when' holds in no reachable state after 'after'"
+                       : "no reachable state comes after 'after'";
+}
+
 std::string describe_answer(const VerifyResult& result, const VerifyPart& part,
                             const Answer& answer) {
   const Exploration& exploration = part.verification.explorations[answer.exploration];
@@ -123,7 +129,9 @@ std::string describe_answer(const VerifyResult& result, const VerifyPart& part,
       break;
   }
   if (!answer.witness) {
-    return fmt::format("proved for {}", quantity(exploration.states, "reachable state"));
+    return fmt::format(
+        "proved for {}{}", quantity(exploration.states, "reachable state"),
+        answer.verdict.is_vacuous ? ", but only since " + describe_vacuity(*answer.property) : "");
   }
   const std::size_t events = answer.verdict.script.size();
   return events == 0 ? "proved in the first state" : "proved after " + quantity(events, "event");
@@ -332,6 +340,14 @@ void add_table(const VerifyResult& result, const VerifyPart& part, Text& text) {
   text.add(table.text());
 }
 
+/// A promise that says nothing.
+void add_vacuity(const VerifyPart& part, const Property& property, Text& text) {
+  text.line("");
+  text.line(fmt::format("{}:{}: {}: proved only since {}", printable(part.file->path),
+                        property.line, text.style().paint(text.style().warning, "warning"),
+                        describe_vacuity(property)));
+}
+
 void add_violation(const VerifyResult& result, const VerifyPart& part,
                    const ReportedAnswer& reported, Text& text) {
   const Answer& answer = *reported.answer;
@@ -345,24 +361,30 @@ void add_violation(const VerifyResult& result, const VerifyPart& part,
   if (!answer.verdict.script.empty()) text.add("\n" + reported.replay->text);
 }
 
+/// What ended an exploration before all states were visited.
+void add_end(const VerifyResult& result, const Exploration& exploration, Text& text) {
+  const std::string groups =
+      join(exploration.groups, ", ", [](GroupId group) { return std::to_string(group); });
+  const std::string title = fmt::format(
+      "exploration of {} {}", exploration.groups.size() == 1 ? "group" : "groups", groups);
+  const std::string_view color = exploration.decided ? text.style().faint : text.style().warning;
+  text.line("");
+  text.line(text.style().paint(color, title) + ": " +
+            (exploration.decided ? "ended as all properties were decided; it counts what it visited"
+                                 : describe_limit(result, exploration)));
+}
+
 /// The properties of a file: a table, then what is behind those that are not proved.
 void add_properties(const VerifyResult& result, const VerifyPart& part, Text& text) {
   add_table(result, part, text);
   for (const ReportedAnswer& reported : part.answers) {
+    if (reported.answer->verdict.is_vacuous) add_vacuity(part, *reported.answer->property, text);
     if (reported.answer->verdict.result == Verdict::Result::violated) {
       add_violation(result, part, reported, text);
     }
   }
   for (const Exploration& exploration : part.verification.explorations) {
-    if (exploration.complete) continue;
-    const std::string groups =
-        join(exploration.groups, ", ", [](GroupId group) { return std::to_string(group); });
-    const std::string title =
-        (exploration.groups.size() == 1 ? "exploration of group " : "exploration of groups ") +
-        groups;
-    text.line("");
-    text.line(text.style().paint(text.style().warning, title) + ": " +
-              describe_limit(result, exploration));
+    if (!exploration.complete) add_end(result, exploration, text);
   }
 }
 
