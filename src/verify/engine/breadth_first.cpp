@@ -77,6 +77,13 @@ bool StateStore::contains(const std::uint32_t* state, std::uint64_t hash) const 
   return find(state, hash, bucket) != size_;
 }
 
+std::optional<StateStore::Number> StateStore::find(const std::uint32_t* state,
+                                                   std::uint64_t hash) const {
+  std::size_t bucket = 0;
+  const Number number = find(state, hash, bucket);
+  return number == size_ ? std::nullopt : std::optional(number);
+}
+
 StateStore::Number StateStore::insert(const std::uint32_t* state, std::uint64_t hash,
                                       Number parent) {
   std::size_t bucket = 0;

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -61,6 +62,8 @@ class StateStore {
   [[nodiscard]] std::uint64_t hash(const std::uint32_t* state) const;
   void prefetch(std::uint64_t hash) const { __builtin_prefetch(&buckets_[hash & bucket_mask_]); }
   [[nodiscard]] bool contains(const std::uint32_t* state, std::uint64_t hash) const;
+  /// The number of the state, if it is known.
+  [[nodiscard]] std::optional<Number> find(const std::uint32_t* state, std::uint64_t hash) const;
   /// The number of the state, which is added if it is new.
   Number insert(const std::uint32_t* state, std::uint64_t hash, Number parent);
 

@@ -68,11 +68,11 @@ std::uint32_t Controls::find_start(std::uint32_t task, Model::Rank ranks) {
   return static_cast<std::uint32_t>(actions_.size() - 1);
 }
 
-Controls::Number Controls::find(const std::uint16_t* cells) {
+const std::uint32_t* Controls::pack(const std::uint16_t* cells) {
   cells_.assign(cells, cells + model_.layout().variables);
   cells_.resize(model_.layout().cells, 0);
   model_.pack(cells_.data(), packed_.data());
-  return store_.insert(packed_.data(), store_.hash(packed_.data()), 0);
+  return packed_.data();
 }
 
 void Controls::load(Number control) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "verify/engine/breadth_first.h"
@@ -38,7 +39,21 @@ class Controls {
   [[nodiscard]] std::uint32_t find_start(std::uint32_t task, Model::Rank ranks);
 
   /// The number of the control of a state.
-  [[nodiscard]] Number find(const std::uint16_t* cells);
+  [[nodiscard]] Number find(const std::uint16_t* cells) { return find_packed(pack(cells)); }
+  [[nodiscard]] Number find_packed(const std::uint32_t* packed) {
+    return store_.insert(packed, store_.hash(packed), 0);
+  }
+  /// The same, but nothing if the control is new.
+  [[nodiscard]] std::optional<Number> known(const std::uint32_t* packed) const {
+    return store_.find(packed, store_.hash(packed));
+  }
+  /// The control of a state; valid until the next call.
+  [[nodiscard]] const std::uint32_t* pack(const std::uint16_t* cells);
+  [[nodiscard]] const std::uint32_t* packed(Number control) const { return store_.state(control); }
+  /// The same for one control in all objects of this class.
+  [[nodiscard]] std::uint64_t hash(const std::uint32_t* packed) const {
+    return store_.hash(packed);
+  }
   /// Takes up a control.
   void load(Number control);
   /// Of its state, what it says of the control counts.

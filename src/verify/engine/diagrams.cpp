@@ -348,6 +348,56 @@ void Diagrams::pick(Set a, std::vector<std::uint8_t>& string) const {
   }
 }
 
+// Parcels.
+
+void Diagrams::put(Set set, Parcel& parcel) const {
+  const auto place_of = [&](Set node) {
+    if (node <= all) return node;
+    const auto found = parcel.places_.find(node);
+    return found != parcel.places_.end() ? found->second : 0;
+  };
+  std::vector<Set> open = {set};
+  while (!open.empty()) {
+    const Set number = open.back();
+    const Node& node = nodes_[number];
+    if (place_of(number) != 0 || number == empty) {
+      open.pop_back();
+      continue;
+    }
+    Parcel::Node copy{node.bit, node.no, node.yes};
+    if (is_leaf(number)) {
+      copy.no = static_cast<std::uint32_t>(parcel.rows_.size() / row_words_);
+      parcel.rows_.insert(parcel.rows_.end(), row_of(number), row_of(number) + row_words_);
+    } else {
+      copy.no = place_of(node.no);
+      copy.yes = place_of(node.yes);
+      if (copy.no == 0 && node.no != empty) open.push_back(node.no);
+      if (copy.yes == 0 && node.yes != empty) open.push_back(node.yes);
+      if (open.back() != number) continue;
+    }
+    open.pop_back();
+    parcel.nodes_.push_back(copy);
+    parcel.places_.emplace(number, static_cast<std::uint32_t>(parcel.nodes_.size() + 1));
+  }
+  parcel.sets_.push_back(place_of(set));
+}
+
+std::vector<Diagrams::Set> Diagrams::take(const Parcel& parcel) {
+  std::vector<Set> nodes = {empty, all};
+  for (const Parcel::Node& node : parcel.nodes_) {
+    if (node.bit < first_of_tail_) {
+      nodes.push_back(make(node.bit, nodes[node.no], nodes[node.yes]));
+      continue;
+    }
+    std::copy_n(&parcel.rows_[node.no * row_words_], row_words_, row_.begin());
+    nodes.push_back(make_leaf());
+  }
+  std::vector<Set> sets;
+  sets.reserve(parcel.sets_.size());
+  for (const std::uint32_t place : parcel.sets_) sets.push_back(nodes[place]);
+  return sets;
+}
+
 std::size_t Diagrams::bytes() const {
   return nodes_.capacity() * (sizeof(Node) + sizeof(std::uint64_t)) +
          rows_.capacity() * sizeof(Word) + table_.size() * sizeof(Set) +

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,27 @@ class Diagrams {
   [[nodiscard]] bool contains(Set a, const std::vector<std::uint8_t>& string) const;
   /// One of the strings of a set that is not empty.
   void pick(Set a, std::vector<std::uint8_t>& string) const;
+
+  /// Sets on their way to another object, of sets of strings of the same form.
+  class Parcel {
+   public:
+    [[nodiscard]] std::size_t size() const { return sets_.size(); }
+
+   private:
+    friend class Diagrams;
+    struct Node {
+      std::uint32_t bit = 0;
+      std::uint32_t no = 0;  ///< places in `nodes_`, plus 2; of a leaf: its row
+      std::uint32_t yes = 0;
+    };
+    std::vector<Node> nodes_;  ///< each after those that it refers to
+    std::vector<Word> rows_;
+    std::vector<std::uint32_t> sets_;                          ///< 0 and 1, places plus 2
+    std::unordered_map<std::uint32_t, std::uint32_t> places_;  ///< plus 2, by node of the sender
+  };
+  void put(Set set, Parcel& parcel) const;
+  /// The sets of a parcel, in the order in which they were put.
+  [[nodiscard]] std::vector<Set> take(const Parcel& parcel);
 
   [[nodiscard]] std::size_t nodes() const { return nodes_.size() - free_.size(); }
   [[nodiscard]] std::size_t bytes() const;

@@ -28,16 +28,16 @@ namespace cbc {
 namespace {
 
 using Set = Environments::Set;
-using States = StateSpace::States;
+using States = StatePart::States;
+using Tests = std::vector<std::unique_ptr<PropertyTest>>;  // by property
 constexpr std::uint32_t never_seen = PropertyTest::never_seen;
 
 /// Notes the least depth at which something was seen, and looks at properties.
 class PropertyVisitor {
  public:
-  PropertyVisitor(const Model& model, StateSpace& space,
-                  const std::vector<std::unique_ptr<PropertyTest>>& properties)
+  PropertyVisitor(const Model& model, StatePart& part, const Tests& properties)
       : model_(model),
-        space_(space),
+        part_(part),
         properties_(properties),
         runs_(model.tasks().size(), never_seen),
         active_(model.behaviors().size(), never_seen),
@@ -48,21 +48,21 @@ class PropertyVisitor {
     }
     for (std::uint32_t task = 0; task < model.tasks().size(); ++task) {
       if (!model.tasks()[task].start_on_request) continue;
-      const std::uint32_t trial = space.controls().find_start(task, model.ranks_up_to(1));
-      trials_.resize(space.controls().actions().size(), none);
+      const std::uint32_t trial = part.controls().find_start(task, model.ranks_up_to(1));
+      trials_.resize(part.controls().actions().size(), none);
       trials_[trial] = task;
     }
   }
 
   void visit(const States& states, std::uint32_t depth) {
     depth_ = depth;
-    if (states.control >= is_known_.size()) is_known_.resize(space_.controls().size(), 0);
+    if (states.control >= is_known_.size()) is_known_.resize(part_.controls().size(), 0);
     if (std::exchange(is_known_[states.control], std::uint8_t{1}) == 0) visit_control();
     for (const auto& property : properties_) property->visit(states, depth);
   }
 
   void on_refusal(std::uint32_t action, const States& states) {
-    const Controls& controls = space_.controls();
+    const Controls& controls = part_.controls();
     if (controls.stepper().cells()[controls.actions()[action].choice.subject] != 0) return;
     if (action < trials_.size() && trials_[action] != none) note(start_refused_[trials_[action]]);
     for (const auto& property : properties_) property->on_refusal(action, states, depth_);
@@ -74,13 +74,8 @@ class PropertyVisitor {
     }
   }
 
-  [[nodiscard]] bool is_done() const {
-    return !properties_.empty() &&
-           std::all_of(properties_.begin(), properties_.end(),
-                       [](const auto& property) { return property->is_decided(); });
-  }
-
-  void report(Exploration& result) const;
+  /// What the visitors of all parts saw.
+  static void report(const std::vector<PropertyVisitor>& parts, Exploration& result);
 
  private:
   struct Together {
@@ -93,7 +88,7 @@ class PropertyVisitor {
 
   /// What is the same in all environments.
   void visit_control() {
-    const Stepper& control = space_.controls().stepper();
+    const Stepper& control = part_.controls().stepper();
     const auto& running = control.running();
     const std::size_t words = running.size();
     for_each_bit(running.data(), words, [&](std::uint32_t task) {
@@ -114,8 +109,8 @@ class PropertyVisitor {
   }
 
   const Model& model_;
-  StateSpace& space_;
-  const std::vector<std::unique_ptr<PropertyTest>>& properties_;
+  StatePart& part_;
+  const Tests& properties_;
   std::vector<PropertyTest*> of_moves_;  ///< those that look at moves
   std::vector<std::uint32_t> trials_;    ///< by action: the task whose start is tried, or none
   std::uint32_t depth_ = 0;
@@ -127,29 +122,41 @@ class PropertyVisitor {
   std::vector<Together> pairs_;  ///< each in both orders
 };
 
-void PropertyVisitor::report(Exploration& result) const {
-  const CompiledCatalog& catalog = model_.catalog();
+void PropertyVisitor::report(const std::vector<PropertyVisitor>& parts, Exploration& result) {
+  const Model& model = parts.front().model_;
+  const CompiledCatalog& catalog = model.catalog();
   const auto index_of = [&](std::uint32_t task) {
-    return catalog.tasks[model_.tasks()[task].id].catalog_index;
+    return catalog.tasks[model.tasks()[task].id].catalog_index;
   };
-  for (const std::uint32_t task : model_.tasks_in_order()) {
-    if (runs_[task] != never_seen) result.runs.emplace_back(index_of(task), runs_[task]);
-    if (start_refused_[task] != never_seen) {
-      result.start_refused.emplace_back(index_of(task), start_refused_[task]);
+  const auto first_of = [&](std::vector<std::uint32_t> PropertyVisitor::*list, std::uint32_t at) {
+    std::uint32_t first = never_seen;
+    for (const PropertyVisitor& part : parts) first = std::min(first, (part.*list)[at]);
+    return first;
+  };
+  for (const std::uint32_t task : model.tasks_in_order()) {
+    const std::uint32_t runs = first_of(&PropertyVisitor::runs_, task);
+    const std::uint32_t refused = first_of(&PropertyVisitor::start_refused_, task);
+    if (runs != never_seen) result.runs.emplace_back(index_of(task), runs);
+    if (refused != never_seen) result.start_refused.emplace_back(index_of(task), refused);
+  }
+  for (const std::uint32_t behavior : model.behaviors_in_order()) {
+    const std::uint32_t active = first_of(&PropertyVisitor::active_, behavior);
+    if (active == never_seen) continue;
+    const BehaviorId id = model.behaviors()[behavior].id;
+    result.active.emplace_back(catalog.behaviors[id].catalog_index, active);
+  }
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> together;
+  for (const PropertyVisitor& part : parts) {
+    for (const Together& pair : part.pairs_) {
+      const std::pair key(index_of(pair.a), index_of(pair.b));
+      if (key.first > key.second) continue;
+      std::uint32_t& first = together.try_emplace(key, pair.depth).first->second;
+      first = std::min(first, pair.depth);
     }
   }
-  for (const std::uint32_t behavior : model_.behaviors_in_order()) {
-    if (active_[behavior] == never_seen) continue;
-    result.active.emplace_back(catalog.behaviors[model_.behaviors()[behavior].id].catalog_index,
-                               active_[behavior]);
+  for (const auto& [pair, depth] : together) {
+    result.together.push_back({pair.first, pair.second, depth});
   }
-  for (const Together& pair : pairs_) {
-    const std::uint32_t a = index_of(pair.a);
-    const std::uint32_t b = index_of(pair.b);
-    if (a < b) result.together.push_back({a, b, pair.depth});
-  }
-  std::sort(result.together.begin(), result.together.end(),
-            [](const auto& a, const auto& b) { return std::pair(a.a, a.b) < std::pair(b.a, b.b); });
 }
 
 /// What the tables of pairs of tasks take, before any state is visited: in the model, the needs and
@@ -234,41 +241,64 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& 
     memory -= of_pairs;
   }
   const Stepper::Options of_stepper = share_memory(options, limits.max_memory);
-  std::optional<StateSpace::Mark> mark;
+  std::optional<StatePart::Mark> mark;
   if (!properties.empty() && properties.front()->after) {
     mark = {*properties.front()->after, properties.front()->until};
   }
   StateSpace space(
-      model, of_stepper, limits,
+      model, of_stepper, limits, std::max(1U, options.jobs),
       [&](const ExplorationProgress& progress) {
         return !options.on_progress || options.on_progress(groups, progress);
       },
       mark);
-  std::vector<std::unique_ptr<PropertyTest>> tests;
-  tests.reserve(properties.size());
-  for (const Property* const property : properties) {
-    tests.push_back(make_property_test(*property, model, space));
+  std::vector<Tests> tests(space.parts().size());
+  std::vector<PropertyVisitor> visitors;
+  visitors.reserve(tests.size());
+  for (std::size_t place = 0; place < tests.size(); ++place) {
+    StatePart& part = *space.parts()[place];
+    for (const Property* const property : properties) {
+      tests[place].push_back(make_property_test(*property, model, part));
+    }
+    visitors.emplace_back(model, part, tests[place]);
   }
-  PropertyVisitor visitor(model, space, tests);
-  space.run(visitor);
-  for (const auto& test : tests) result.verdicts.push_back(test->verdict());
+  const auto tests_of = [&](std::size_t property) {
+    std::vector<PropertyTest*> of_parts;
+    for (const Tests& of_part : tests) of_parts.push_back(of_part[property].get());
+    return of_parts;
+  };
+  space.run(visitors, [&] {
+    for (std::size_t property = 0; property < properties.size(); ++property) {
+      const auto of_parts = tests_of(property);
+      const bool is_decided = std::any_of(of_parts.begin(), of_parts.end(), [](const auto* test) {
+        return test->first() != never_seen;
+      });
+      if (!is_decided) return false;
+    }
+    return !properties.empty();
+  });
+  for (std::size_t property = 0; property < properties.size(); ++property) {
+    result.verdicts.push_back(
+        find_verdict(*properties[property], model, space, tests_of(property)));
+  }
 
-  const Decisions& decisions = space.controls().stepper().decisions();
-  result.decisions_remembered = decisions.remembered();
-  result.decisions_computed = decisions.computed();
+  for (const auto& part : space.parts()) {
+    const Decisions& decisions = part->controls().stepper().decisions();
+    result.decisions_remembered += decisions.remembered();
+    result.decisions_computed += decisions.computed();
+    result.controls += part->count_controls();
+    result.regions += part->controls().regions();
+    result.diagram_nodes += part->environments().sets().nodes();
+  }
   result.complete = space.is_complete();
-  result.reduced = options.reduce;
   result.decided = space.is_decided();
+  result.reduced = options.reduce;
   if (!result.complete && !result.decided) result.end = space.end();
   result.states = space.states();
   result.transitions = space.transitions();
   result.depth = space.expanded_depth();
   result.states_at_depth = space.states_at_depth();
   result.bytes = space.bytes();
-  result.controls = space.controls().size();
-  result.regions = space.controls().regions();
-  result.diagram_nodes = space.environments().sets().nodes();
-  visitor.report(result);
+  PropertyVisitor::report(visitors, result);
   return result;
 }
 
@@ -303,13 +333,16 @@ struct ExplorationTask {
   std::vector<const Property*> properties;
 };
 
-/// Several explorations, up to `jobs` at a time.
+/// Several explorations, up to `jobs` at a time; what is left of the jobs is shared among them.
 std::vector<Exploration> explore_all(const CompiledCatalog& catalog, const Assumptions& assumptions,
                                      const std::vector<ExplorationTask>& tasks,
                                      const ExplorationOptions& options) {
   std::vector<Exploration> explorations(tasks.size());
   std::mutex telling;
   ExplorationOptions each = options;
+  const auto at_a_time =
+      static_cast<unsigned>(std::clamp<std::size_t>(tasks.size(), 1, std::max(1U, options.jobs)));
+  each.jobs = std::max(1U, options.jobs / at_a_time);
   if (options.on_progress) {
     each.on_progress = [&](const std::vector<GroupId>& groups,
                            const ExplorationProgress& progress) {

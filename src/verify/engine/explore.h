@@ -23,7 +23,7 @@ namespace cbc {
 
 struct ExplorationOptions {
   ExplorationLimits limits;  ///< of each exploration
-  unsigned jobs = 1;         ///< explorations at a time; of a comparison, threads
+  unsigned jobs = 1;         ///< threads
   /// Takes states for the same that differ only in the order of requests of equal priority that
   /// cannot interact (Model::interaction_classes). They have the same moves, to the same states in
   /// this sense: verdicts, scripts and least numbers of moves stay as they are, and only the counts

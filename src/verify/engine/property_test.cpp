@@ -20,11 +20,11 @@ using Set = Environments::Set;
 
 }  // namespace
 
-PropertyTest::PropertyTest(const Property& property, const Model& model, StateSpace& space)
-    : property_(property), model_(model), space_(space) {
+PropertyTest::PropertyTest(const Property& property, const Model& model, StatePart& part)
+    : property_(property), model_(model), part_(part) {
   if (!property.when) return;
-  when_.emplace(model, space.environments(), *property.when);
-  space.keep({0, when_->in_environment()});
+  when_.emplace(model, part.environments(), *property.when);
+  part.keep({0, when_->in_environment()});
 }
 
 void PropertyTest::visit(const States& states, std::uint32_t /*depth*/) {
@@ -41,7 +41,7 @@ Set PropertyTest::counted(const States& states) {
   if (property_.settled && !control().is_settled()) return Diagrams::empty;
   Set set = states.environments;
   if (when_) set = sets().both(set, when_->holds_in(control()));
-  if (property_.after) set = sets().both(set, space_.environments().marked());
+  if (property_.after) set = sets().both(set, part_.environments().marked());
   return set;
 }
 
@@ -53,29 +53,14 @@ void PropertyTest::note(const States& states, std::uint32_t depth) {
   }
   Set& known = met_.back().environments;
   known = sets().either(known, states.environments);
-  space_.keep(met_.back());
+  part_.keep(met_.back());
 }
 
-Verdict PropertyTest::undecided_or(Verdict::Result result) const {
-  Verdict verdict;
-  if (!space_.is_complete()) return verdict;
-  verdict.result = result;
-  verdict.is_vacuous =
-      result == Verdict::Result::proved && !has_counted_ && (property_.when || property_.after);
-  return verdict;
-}
-
-void PropertyTest::write_script(Verdict& verdict) {
-  verdict.has_script = true;
-  verdict.script = space_.path_to(met_, first_);
-}
-
-Verdict PropertyTest::verdict() {
-  if (!is_decided()) return undecided_or(Verdict::Result::proved);
-  Verdict verdict;
-  verdict.result = Verdict::Result::violated;
-  write_script(verdict);
-  return verdict;
+void PropertyTest::note_stuck(const States& states, const std::vector<Set>& can_reach,
+                              std::uint32_t depth) {
+  const Set reaching =
+      states.control < can_reach.size() ? can_reach[states.control] : Diagrams::empty;
+  note({states.control, sets().without(counted(states), reaching)}, depth);
 }
 
 namespace {
@@ -83,10 +68,10 @@ namespace {
 /// always, never and reachable.
 class ConditionTest final : public PropertyTest {
  public:
-  ConditionTest(const Property& property, const Model& model, StateSpace& space)
-      : PropertyTest(property, model, space),
-        condition_(model, space.environments(), property.condition) {
-    space.keep({0, condition_.in_environment()});
+  ConditionTest(const Property& property, const Model& model, StatePart& part)
+      : PropertyTest(property, model, part),
+        condition_(model, part.environments(), property.condition) {
+    part.keep({0, condition_.in_environment()});
   }
 
   void visit(const States& states, std::uint32_t depth) override {
@@ -97,112 +82,95 @@ class ConditionTest final : public PropertyTest {
     note({states.control, is_always ? sets().without(all, holds) : sets().both(all, holds)}, depth);
   }
 
-  [[nodiscard]] Verdict verdict() override {
-    if (property_.kind != Kind::reachable) return PropertyTest::verdict();
-    if (!is_decided()) return undecided_or(Verdict::Result::violated);
-    Verdict verdict;
-    verdict.result = Verdict::Result::proved;
-    write_script(verdict);
-    return verdict;
-  }
-
  private:
   StateTest condition_;
 };
 
 class StartTest final : public PropertyTest {
  public:
-  StartTest(const Property& property, const Model& model, StateSpace& space)
-      : PropertyTest(property, model, space),
-        action_(space.controls().find_start(model.find_task(property.task),
-                                            model.ranks_up_to(property.priority))) {}
+  StartTest(const Property& property, const Model& model, StatePart& part)
+      : PropertyTest(property, model, part),
+        action_(part.controls().find_start(model.find_task(property.task),
+                                           model.ranks_up_to(property.priority))) {}
 
   void on_refusal(std::uint32_t action, const States& states, std::uint32_t depth) override {
     if (action == action_) note({states.control, counted(states)}, depth);
-  }
-
-  [[nodiscard]] Verdict verdict() override {
-    Verdict verdict = PropertyTest::verdict();
-    if (!verdict.has_script) return verdict;
-    const std::uint32_t index = model_.catalog().tasks[property_.task].catalog_index;
-    verdict.script.push_back({Move::Kind::start, index, property_.priority});
-    return verdict;
   }
 
  private:
   std::uint32_t action_ = 0;
 };
 
+/// Of keeps_running: whether a move of the loaded state may not end the task, which runs there.
+bool may_not_end(const Property& property, const Model& model, const Model::Choice& choice,
+                 const Stepper& state) {
+  const std::uint32_t task = model.find_task(property.task);
+  // Rank 0 is that of reactive starts.
+  if (state.cells()[task] == 0 || state.request_of(task) <= 1) return false;
+  if (property.by && !is_of_kinds(*property.by, choice, model)) return false;
+  switch (choice.move.kind) {
+    case Move::Kind::stop:
+      return choice.subject != task;
+    case Move::Kind::success:
+    case Move::Kind::failure:
+    case Move::Kind::situation_change: {
+      const std::uint32_t value = model.tasks()[task].values.begin + state.cells()[task] - 1U;
+      return model.behavior_of(value) != choice.subject;
+    }
+    default:
+      return true;
+  }
+}
+
+/// Of keeps_running: the first move that ends the task after some others.
+Move find_ending(const Property& property, const Model& model, const StateSpace& space,
+                 const std::vector<Move>& moves) {
+  Stepper stepper(model);
+  space.follow(moves, stepper);
+  for (const Model::Choice& choice : model.moves()) {
+    if (!may_not_end(property, model, choice, stepper) || !stepper.try_move(choice)) continue;
+    if (stepper.cells_after()[model.find_task(property.task)] == 0) return stepper.move_of(choice);
+  }
+  return {};
+}
+
 /// keeps_running: looks for the states before the task stops.
 class KeepTest final : public PropertyTest {
  public:
-  KeepTest(const Property& property, const Model& model, StateSpace& space)
-      : PropertyTest(property, model, space), task_(model.find_task(property.task)) {}
+  KeepTest(const Property& property, const Model& model, StatePart& part)
+      : PropertyTest(property, model, part), task_(model.find_task(property.task)) {}
 
   [[nodiscard]] bool looks_at_moves() const override { return true; }
   void on_outcome(std::uint32_t action, const States& states, Controls::Outcome outcome,
                   std::uint32_t depth) override {
-    const Model::Choice& choice = space_.controls().actions()[action].choice;
-    if (!counts(choice, control()) || space_.controls().runs_in(outcome.control, task_)) return;
+    const Model::Choice& choice = part_.controls().actions()[action].choice;
+    if (!may_not_end(property_, model_, choice, control())) return;
+    if (part_.controls().runs_in(outcome.control, task_)) return;
     note({states.control, counted(states)}, depth);
   }
 
-  [[nodiscard]] Verdict verdict() override {
-    Verdict verdict = PropertyTest::verdict();
-    if (!verdict.has_script) return verdict;
-    Stepper stepper(model_);
-    space_.follow(verdict.script, stepper);
-    for (const Model::Choice& choice : model_.moves()) {
-      if (!counts(choice, stepper) || !stepper.try_move(choice)) continue;
-      if (stepper.cells_after()[task_] != 0) continue;
-      verdict.script.push_back(stepper.move_of(choice));
-      break;
-    }
-    return verdict;
-  }
-
  private:
-  /// Whether a move of the loaded state may not end the task.
-  [[nodiscard]] bool counts(const Model::Choice& choice, const Stepper& state) const {
-    // Rank 0 is that of reactive starts.
-    if (state.cells()[task_] == 0 || state.request_of(task_) <= 1) return false;
-    if (property_.by && !is_of_kinds(*property_.by, choice, model_)) return false;
-    switch (choice.move.kind) {
-      case Move::Kind::stop:
-        return choice.subject != task_;
-      case Move::Kind::success:
-      case Move::Kind::failure:
-      case Move::Kind::situation_change: {
-        const std::uint32_t value = model_.tasks()[task_].values.begin + state.cells()[task_] - 1U;
-        return model_.behavior_of(value) != choice.subject;
-      }
-      default:
-        return true;
-    }
-  }
-
   std::uint32_t task_ = 0;
 };
 
 /// always_possible: goes backward once all states are known.
 class PossibilityTest final : public PropertyTest {
  public:
-  PossibilityTest(const Property& property, const Model& model, StateSpace& space)
-      : PropertyTest(property, model, space),
-        condition_(model, space.environments(), property.condition) {
-    space.keep({0, condition_.in_environment()});
+  PossibilityTest(const Property& property, const Model& model, StatePart& part)
+      : PropertyTest(property, model, part),
+        condition_(model, part.environments(), property.condition) {
+    part.keep({0, condition_.in_environment()});
   }
 
-  [[nodiscard]] Verdict verdict() override {
-    if (!space_.is_complete()) return {};
-    const std::optional<std::vector<Set>> possible =
-        space_.can_reach(condition_, property_.by, property_.within);
-    if (!possible) return {};
-    space_.for_each_layer([&](const States& states, std::uint32_t depth) {
-      note({states.control, sets().without(counted(states), (*possible)[states.control])}, depth);
-      return !is_decided();
-    });
-    return PropertyTest::verdict();
+  [[nodiscard]] Layer goals() override {
+    Layer goals;
+    for (Controls::Number number = 0; number < part_.controls().size(); ++number) {
+      if (!part_.is_own(number) || part_.visited(number) == Diagrams::empty) continue;
+      part_.controls().load(number);
+      const Set set = sets().both(part_.visited(number), condition_.holds_in(control()));
+      if (set != Diagrams::empty) goals.push_back({number, set});
+    }
+    return goals;
   }
 
  private:
@@ -212,20 +180,80 @@ class PossibilityTest final : public PropertyTest {
 }  // namespace
 
 std::unique_ptr<PropertyTest> make_property_test(const Property& property, const Model& model,
-                                                 StateSpace& space) {
+                                                 StatePart& part) {
   switch (property.kind) {
     case Kind::can_start:
-      return std::make_unique<StartTest>(property, model, space);
+      return std::make_unique<StartTest>(property, model, part);
     case Kind::keeps_running:
-      return std::make_unique<KeepTest>(property, model, space);
+      return std::make_unique<KeepTest>(property, model, part);
     case Kind::always_possible:
-      return std::make_unique<PossibilityTest>(property, model, space);
+      return std::make_unique<PossibilityTest>(property, model, part);
     case Kind::always:
     case Kind::never:
     case Kind::reachable:
       break;
   }
-  return std::make_unique<ConditionTest>(property, model, space);
+  return std::make_unique<ConditionTest>(property, model, part);
+}
+
+namespace {
+
+/// Goes backward from the states that satisfy the condition. False if a limit ends it.
+bool find_stuck(const Property& property, StateSpace& space,
+                const std::vector<PropertyTest*>& tests) {
+  std::vector<StatePart::Layer> goals;
+  goals.reserve(tests.size());
+  for (PropertyTest* const test : tests) goals.push_back(test->goals());
+  const auto can_reach =
+      space.can_reach(goals, property.by ? &*property.by : nullptr, property.within);
+  if (!can_reach) return false;
+  for (std::size_t place = 0; place < tests.size(); ++place) {
+    StatePart& part = *space.parts()[place];
+    for (std::uint32_t depth = 0; depth < part.layers().size(); ++depth) {
+      for (const auto& states : part.layers()[depth]) {
+        part.controls().load(states.control);
+        tests[place]->note_stuck(states, (*can_reach)[place], depth);
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+Verdict find_verdict(const Property& property, const Model& model, StateSpace& space,
+                     const std::vector<PropertyTest*>& tests) {
+  Verdict verdict;
+  if (property.kind == Kind::always_possible) {
+    if (!space.is_complete() || !find_stuck(property, space, tests)) return verdict;
+  }
+  const bool is_reachable = property.kind == Kind::reachable;
+  const auto if_seen = is_reachable ? Verdict::Result::proved : Verdict::Result::violated;
+  const auto if_not = is_reachable ? Verdict::Result::violated : Verdict::Result::proved;
+  std::uint32_t first = PropertyTest::never_seen;
+  for (const PropertyTest* const test : tests) first = std::min(first, test->first());
+  if (first == PropertyTest::never_seen) {
+    if (!space.is_complete()) return verdict;
+    verdict.result = if_not;
+    const bool has_counted = std::any_of(tests.begin(), tests.end(),
+                                         [](const auto* test) { return test->has_counted(); });
+    verdict.is_vacuous = !is_reachable && !has_counted && (property.when || property.after);
+    return verdict;
+  }
+  verdict.result = if_seen;
+  verdict.has_script = true;
+  std::vector<StatePart::Layer> targets;
+  for (const PropertyTest* const test : tests) {
+    targets.push_back(test->first() == first ? test->met() : StatePart::Layer());
+  }
+  verdict.script = space.path_to(targets, first);
+  if (property.kind == Kind::can_start) {
+    const std::uint32_t index = model.catalog().tasks[property.task].catalog_index;
+    verdict.script.push_back({Move::Kind::start, index, property.priority});
+  } else if (property.kind == Kind::keeps_running) {
+    verdict.script.push_back(find_ending(property, model, space, verdict.script));
+  }
+  return verdict;
 }
 
 }  // namespace cbc

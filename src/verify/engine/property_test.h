@@ -25,14 +25,15 @@ struct Verdict {
   bool is_vacuous = false;
 };
 
-/// Looks for the first states that decide a property, while a StateSpace runs. The property and the
-/// model must outlive it.
+/// Looks in a part of the states for the first ones that decide a property, while a StateSpace
+/// runs. The property and the model must outlive it.
 class PropertyTest {
  public:
-  using States = StateSpace::States;
+  using States = StatePart::States;
+  using Layer = StatePart::Layer;
   static constexpr std::uint32_t never_seen = UINT32_MAX;
 
-  PropertyTest(const Property& property, const Model& model, StateSpace& space);
+  PropertyTest(const Property& property, const Model& model, StatePart& part);
   PropertyTest(const PropertyTest&) = delete;
   PropertyTest& operator=(const PropertyTest&) = delete;
   virtual ~PropertyTest() = default;
@@ -47,10 +48,20 @@ class PropertyTest {
   /// Whether on_outcome() is to be called.
   [[nodiscard]] virtual bool looks_at_moves() const { return false; }
 
-  /// Whether the states that decide it are known, once all states of their depth were visited.
-  [[nodiscard]] bool is_decided() const { return first_ != never_seen; }
-  /// After the run.
-  [[nodiscard]] virtual Verdict verdict();
+  /// The least depth of states that decide it; never_seen: there is none yet.
+  [[nodiscard]] std::uint32_t first() const { return first_; }
+  /// Those of that depth. All of the part are known once its layer was visited, and, of can_start
+  /// and keeps_running, all moves of the layer were made.
+  [[nodiscard]] const Layer& met() const { return met_; }
+  /// Whether some state counts.
+  [[nodiscard]] bool has_counted() const { return has_counted_; }
+
+  /// Of always_possible, after the run: the states of the part that satisfy the condition.
+  [[nodiscard]] virtual Layer goals() { return {}; }
+  /// Takes note of the states of a depth that count, but are not among those from which these goals
+  /// can be reached, by control. Their control is loaded.
+  void note_stuck(const States& states, const std::vector<Environments::Set>& can_reach,
+                  std::uint32_t depth);
 
  protected:
   using Set = Environments::Set;
@@ -59,26 +70,26 @@ class PropertyTest {
   [[nodiscard]] Set counted(const States& states);
   /// Takes note of states that decide the property.
   void note(const States& states, std::uint32_t depth);
-  [[nodiscard]] Verdict undecided_or(Verdict::Result result) const;
-  [[nodiscard]] Diagrams& sets() { return space_.environments().sets(); }
-  [[nodiscard]] const Stepper& control() const { return space_.controls().stepper(); }
-  /// The first shortest path to the states of which note was taken.
-  void write_script(Verdict& verdict);
+  [[nodiscard]] Diagrams& sets() { return part_.environments().sets(); }
+  [[nodiscard]] const Stepper& control() const { return part_.controls().stepper(); }
 
   const Property& property_;
   const Model& model_;
-  StateSpace& space_;
+  StatePart& part_;
 
  private:
   std::optional<StateTest> when_;
   bool has_counted_ = false;          ///< some state
   std::uint32_t first_ = never_seen;  ///< the depth
-  std::vector<States> met_;           ///< of that depth, one after the other by control
+  Layer met_;
 };
 
 /// The test for a kind of property.
 [[nodiscard]] std::unique_ptr<PropertyTest> make_property_test(const Property& property,
-                                                               const Model& model,
-                                                               StateSpace& space);
+                                                               const Model& model, StatePart& part);
+
+/// The tests of all parts for one property, after the run.
+[[nodiscard]] Verdict find_verdict(const Property& property, const Model& model, StateSpace& space,
+                                   const std::vector<PropertyTest*>& tests);
 
 }  // namespace cbc

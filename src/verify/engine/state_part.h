@@ -1,0 +1,183 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "verify/engine/controls.h"
+#include "verify/engine/environments.h"
+#include "verify/engine/model.h"
+#include "verify/engine/state_test.h"
+
+namespace cbc {
+
+/// A part of the states of a model, for one thread: those whose control is its own, by a hash of
+/// the control. Everything in it, numbers of controls and sets too, means something in this part
+/// only. See StateSpace.
+class StatePart {
+ public:
+  using Set = Environments::Set;
+  /// States of one control, in the environments of a set.
+  struct States {
+    Controls::Number control = 0;
+    Set environments = Diagrams::empty;
+  };
+  using Layer = std::vector<States>;  ///< in the order of controls
+  /// A mark that is part of the states; see Property::after.
+  struct Mark {
+    StateCondition after;
+    std::optional<StateCondition> until;
+  };
+  /// States on their way to another part.
+  struct Parcel {
+    std::vector<std::uint32_t> controls;  ///< packed, one after the other
+    Diagrams::Parcel environments;
+  };
+
+  /// It is the part number `place` of `count` parts.
+  StatePart(const Model& model, const Stepper::Options& options, const std::optional<Mark>& mark,
+            std::size_t place, std::size_t count);
+
+  [[nodiscard]] Environments& environments() { return environments_; }
+  [[nodiscard]] Controls& controls() { return controls_; }
+  /// Keeps sets from being forgotten while states are visited.
+  void keep(const States& states) { kept_.push_back(states); }
+
+  // Visiting states.
+
+  /// Adds the first state to the first layer, if it is of this part.
+  void begin();
+  /// See StateSpace::run().
+  template <typename Visitor>
+  void visit(std::uint32_t depth, Visitor& visitor);
+  /// Makes all moves of the layer, as long as `may_go_on()` returns true, which is asked now and
+  /// then. False: it did not.
+  template <typename Visitor, typename MayGoOn>
+  bool make_moves(std::uint32_t depth, Visitor& visitor, MayGoOn&& may_go_on);
+  /// What moves led to: the states of another part.
+  [[nodiscard]] Parcel take_found(std::size_t part);
+  void add(const Parcel& parcel);
+  /// Makes all that was added and is new the next layer. Returns the number of its states.
+  std::uint64_t end_layer();
+
+  [[nodiscard]] const std::vector<Layer>& layers() const { return layers_; }
+  [[nodiscard]] std::uint64_t transitions() const { return transitions_; }
+  [[nodiscard]] std::uint64_t bytes() const;
+  [[nodiscard]] std::uint64_t count_controls() const;
+
+  // Going backward, once all states were visited that count.
+
+  /// The place of the part of a packed control.
+  [[nodiscard]] std::size_t part_of(const std::uint32_t* packed) const {
+    return controls_.hash(packed) / 64 % count_;
+  }
+  [[nodiscard]] Parcel pack(const Layer& layer);
+  /// Those states of parcels of all parts whose controls are known here.
+  [[nodiscard]] Layer unpack(const std::vector<Parcel>& parcels);
+  /// Of the part's own states, for each control those that `here` returns, the states with a move
+  /// of the kinds (null: all) to some of the layer, of which the mark is still that of the state
+  /// before.
+  template <typename Here>
+  [[nodiscard]] Layer sources_of(const Layer& layer, const MoveKinds* kinds, Here&& here);
+  /// The states as they are before their marks are set and cleared.
+  [[nodiscard]] Layer before_marks(const Layer& layer);
+  [[nodiscard]] static Set environments_in(const Layer& layer, Controls::Number control);
+  /// The environments of all states of the part that have a control of its own.
+  [[nodiscard]] Set visited(Controls::Number control) const {
+    return control < visited_.size() ? visited_[control] : Diagrams::empty;
+  }
+  [[nodiscard]] bool is_own(Controls::Number control) const {
+    return part_of(controls_.packed(control)) == place_;
+  }
+
+  /// Where the mark is set, and where it is cleared, in states of a loaded control.
+  struct MarkSets {
+    Set to_set = Diagrams::empty;
+    Set to_clear = Diagrams::empty;
+  };
+  [[nodiscard]] bool has_mark() const { return mark_after_.has_value(); }
+  [[nodiscard]] MarkSets find_marks(const Stepper& control);
+
+ private:
+  void add(Controls::Number control, Set environments);
+  template <typename Visitor, typename MayGoOn>
+  bool make_moves_of(const States& states, Visitor& visitor, MayGoOn& may_go_on);
+  void add_faults(const States& states);
+  void collect();
+  void find_predecessors();
+  [[nodiscard]] std::vector<Controls::Number> controls_before(const Layer& layer);
+  [[nodiscard]] Set sources_in(const States& all, const Layer& wanted, const MoveKinds* kinds);
+
+  const Model& model_;
+  const std::size_t place_;
+  const std::size_t count_;
+  Environments environments_;
+  Controls controls_;
+  std::optional<StateTest> mark_after_;  ///< nothing: there is no mark
+  std::optional<StateTest> mark_until_;
+  std::vector<Layer> layers_;
+  std::vector<Set> visited_;               ///< by control; of other parts: what they were told of
+  std::vector<Set> next_;                  ///< by control: of the next layer
+  std::vector<Controls::Number> touched_;  ///< controls with some
+  std::vector<States> kept_;
+  /// By control: its own ones that have a move to it; found when it is first asked.
+  std::vector<std::vector<Controls::Number>> predecessors_;
+  std::uint64_t transitions_ = 0;
+};
+
+template <typename Visitor>
+void StatePart::visit(std::uint32_t depth, Visitor& visitor) {
+  for (const States& states : layers_[depth]) {
+    controls_.load(states.control);
+    visitor.visit(states, depth);
+  }
+}
+
+template <typename Visitor, typename MayGoOn>
+bool StatePart::make_moves(std::uint32_t depth, Visitor& visitor, MayGoOn&& may_go_on) {
+  for (std::size_t place = 0; place < layers_[depth].size(); ++place) {
+    const States states = layers_[depth][place];
+    controls_.load(states.control);
+    if (!make_moves_of(states, visitor, may_go_on)) return false;
+    if (environments_.sets().is_crowded()) collect();
+  }
+  return true;
+}
+
+template <typename Visitor, typename MayGoOn>
+bool StatePart::make_moves_of(const States& states, Visitor& visitor, MayGoOn& may_go_on) {
+  Diagrams& sets = environments_.sets();
+  for (std::uint32_t action = 0; action < controls_.actions().size(); ++action) {
+    if (!controls_.may_have(action)) continue;
+    const Controls::Action& made = controls_.actions()[action];
+    const Set set = sets.both(states.environments, made.effect.condition);
+    if (set == Diagrams::empty) continue;
+    if (made.is_move) transitions_ += sets.count(set);
+    const bool is_start = made.choice.move.kind == Move::Kind::start;
+    controls_.for_each_outcome(action, set, [&](Controls::Outcome outcome, Set part) {
+      const States from{states.control, part};
+      if (is_start && !outcome.accepted) visitor.on_refusal(action, from);
+      if (!made.is_move) return;
+      visitor.on_outcome(action, from, outcome);
+      const bool changes = made.effect.changes || outcome.control != states.control;
+      if (changes) add(outcome.control, environments_.after(made.effect, part));
+    });
+    if (!may_go_on()) return false;
+  }
+  add_faults(states);
+  return true;
+}
+
+template <typename Here>
+StatePart::Layer StatePart::sources_of(const Layer& layer, const MoveKinds* kinds, Here&& here) {
+  Layer sources;
+  for (const Controls::Number control : controls_before(layer)) {
+    const Set set = here(control);
+    if (set == Diagrams::empty) continue;
+    const Set found = sources_in({control, set}, layer, kinds);
+    if (found != Diagrams::empty) sources.push_back({control, found});
+  }
+  return sources;
+}
+
+}  // namespace cbc
