@@ -333,16 +333,23 @@ struct ExplorationTask {
   std::vector<const Property*> properties;
 };
 
-/// Several explorations, up to `jobs` at a time; what is left of the jobs is shared among them.
+/// Whether an exploration is worth several threads.
+bool is_large(const CompiledCatalog& catalog, const std::vector<GroupId>& groups) {
+  constexpr std::uint32_t many_tasks = 8;
+  std::uint32_t tasks = 0;
+  for (const GroupId group : groups) {
+    tasks += catalog.group_tasks[group + 1] - catalog.group_tasks[group];
+  }
+  return tasks >= many_tasks;
+}
+
+/// Several explorations: large ones with all threads, the others with one each.
 std::vector<Exploration> explore_all(const CompiledCatalog& catalog, const Assumptions& assumptions,
                                      const std::vector<ExplorationTask>& tasks,
                                      const ExplorationOptions& options) {
   std::vector<Exploration> explorations(tasks.size());
   std::mutex telling;
   ExplorationOptions each = options;
-  const auto at_a_time =
-      static_cast<unsigned>(std::clamp<std::size_t>(tasks.size(), 1, std::max(1U, options.jobs)));
-  each.jobs = std::max(1U, options.jobs / at_a_time);
   if (options.on_progress) {
     each.on_progress = [&](const std::vector<GroupId>& groups,
                            const ExplorationProgress& progress) {
@@ -350,10 +357,21 @@ std::vector<Exploration> explore_all(const CompiledCatalog& catalog, const Assum
       return options.on_progress(groups, progress);
     };
   }
-  for_each_in_threads(tasks.size(), options.jobs, [&](std::size_t, std::size_t place) {
+  const auto explore_one = [&](std::size_t place) {
     const ExplorationTask& task = tasks[place];
     explorations[place] = explore(catalog, task.groups, assumptions, task.properties, each);
-  });
+  };
+  std::vector<std::size_t> small;
+  for (std::size_t place = 0; place < tasks.size(); ++place) {
+    if (is_large(catalog, tasks[place].groups)) {
+      explore_one(place);
+    } else {
+      small.push_back(place);
+    }
+  }
+  each.jobs = 1;
+  for_each_in_threads(small.size(), options.jobs,
+                      [&](std::size_t, std::size_t number) { explore_one(small[number]); });
   return explorations;
 }
 

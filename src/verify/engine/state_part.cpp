@@ -53,7 +53,7 @@ std::uint64_t StatePart::bytes() const {
 
 std::uint64_t StatePart::count_controls() const {
   std::uint64_t count = 0;
-  for (Number control = 0; control < controls_.size(); ++control) count += is_own(control) ? 1 : 0;
+  for (Number control = 0; control < controls_.size(); ++control) count += is_own(control) ? 1U : 0U;
   return count;
 }
 
