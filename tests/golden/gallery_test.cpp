@@ -59,7 +59,7 @@ TEST_P(Gallery, MissionsMeetAllGoalsThatCanBeMet) {
 }
 
 TEST_P(Gallery, MissionsNoticeEveryChange) {
-  const bool is_large = GetParam() == "autoware" || GetParam() == "px4";
+  const bool is_large = GetParam() == "autoware" || GetParam() == "hospital" || GetParam() == "px4";
   if (is_large && std::getenv("CBC_NIGHT") == nullptr) {
     GTEST_SKIP() << "this takes minutes: CBC_NIGHT=1 lets it run";
   }
