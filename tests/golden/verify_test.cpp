@@ -152,6 +152,7 @@ TEST_F(Verify, ReportsTheSameWhateverTheJobs) {
       {properties, "--format", "json"},
       {catalog, "--format", "json"},
       {"catalogs/mobile-manipulator.properties.yaml", "--format", "json"},
+      {"catalogs/hospital.properties.yaml", "--format", "json"},
   };
   for (std::vector<std::string> call : calls) {
     call.insert(call.end(), {"--jobs", "1"});
