@@ -43,9 +43,10 @@ void register_sweep_benchmarks();
 /// order 3 of all tasks of the quadrotor together.
 void register_cut_set_benchmarks();
 
-/// explore/quadrotor/…: all states of its group of LAND with one or two faulty
-/// behaviors, on one core and on two: transitions in a second, the share of decisions that were
-/// remembered, the bytes of a state.
+/// explore/hospital/…: all states of its large group, which are many for its situation variables;
+/// explore/quadrotor/…: all states of its group of LAND with one or two faulty behaviors; on one
+/// core and on two: transitions in a second, the share of decisions that were remembered, the bytes
+/// of a state.
 void register_exploration_benchmarks();
 
 /// fleet/…, generated catalogs of up to 100,000 tasks: compiling, loading, events of one

@@ -44,6 +44,11 @@ void register_exploration(const std::string& name, std::shared_ptr<const Compile
 }  // namespace
 
 void register_exploration_benchmarks() {
+  const auto hospital = load_mission("hospital")->catalog;
+  const TaskId deliver = hospital->task_ids[hospital->find_task("DELIVER").value()];
+  for (const unsigned jobs : {1U, 2U}) {
+    register_exploration("hospital", hospital, hospital->tasks[deliver].group, 0, jobs);
+  }
   const auto quadrotor = load_mission("quadrotor")->catalog;
   const TaskId land = quadrotor->task_ids[quadrotor->find_task("LAND").value()];
   for (const std::uint32_t faults : {1U, 2U}) {

@@ -152,6 +152,7 @@ TEST_F(Verify, ReportsTheSameWhateverTheJobs) {
       {properties, "--format", "json"},
       {catalog, "--format", "json"},
       {"catalogs/mobile-manipulator.properties.yaml", "--format", "json"},
+      {"catalogs/hospital.properties.yaml", "--format", "json"},
   };
   for (std::vector<std::string> call : calls) {
     call.insert(call.end(), {"--jobs", "1"});
@@ -214,19 +215,32 @@ TEST_F(Verify, RefusesGroupsThatAreTooLarge) {
   }
 }
 
+/// The comments of catalogs/hospital.properties.yaml say why these are there.
+const Names violated_on_purpose = {"it can always clear the way",
+                                   "who drives past people spots them"};
+
 /// Whoever changes a published catalog finds out here whether its properties still hold.
-TEST(PublishedProperties, Hold) {
+TEST(PublishedProperties, HoldUnlessTheySayOtherwise) {
+  Names violated;
   for (const fs::path& file : test::catalog_files(CBC_SOURCE_DIR "/catalogs")) {
     const std::string name = "catalogs/" + file.stem().string() + ".properties.yaml";
     const Result result = run({{"verify", name, "--format", "json"}, CBC_SOURCE_DIR});
-    EXPECT_EQ(result.status, 0) << result.out;
     EXPECT_EQ(result.err, "") << name;
     const nlohmann::json report = nlohmann::json::parse(result.out);
     EXPECT_GE(report["properties"].size(), 3U) << name;
+    int status = 0;
     for (const nlohmann::json& property : report["properties"]) {
-      EXPECT_EQ(property["result"], "proved") << name << ":" << property["line"];
+      const nlohmann::json& its_name = property["name"];
+      const bool is_violated = its_name.is_string() && violated_on_purpose.contains(its_name);
+      EXPECT_EQ(property["result"], is_violated ? "violated" : "proved")
+          << name << ":" << property["line"];
+      if (!is_violated) continue;
+      violated.insert(its_name);
+      status = 1;
     }
+    EXPECT_EQ(result.status, status) << result.out;
   }
+  EXPECT_EQ(violated, violated_on_purpose);
 }
 
 }  // namespace
