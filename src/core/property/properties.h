@@ -63,26 +63,49 @@ struct StatedAssumptions {
 struct StateCondition {
   struct Running {
     TaskId task;
-    BehaviorId behavior = none;  ///< none: any
+    std::vector<BehaviorId> behaviors;  ///< it runs with one of these; empty: any
   };
   struct Requested {
     TaskId task;
     std::int32_t priority = 1;  ///< the least priority of the request
+  };
+  /// A situation variable has one of some values.
+  struct Situated {
+    std::uint32_t variable = 0;
+    std::vector<std::uint32_t> values;  ///< distinct, in the order of the file
   };
   std::vector<Running> running;
   std::vector<TaskId> stopped;
   std::vector<BehaviorId> active;
   bool only_active = false;  ///< no other behavior of the groups explored is active
   std::vector<BehaviorId> faulty;
+  bool none_faulty = false;  ///< no behavior of the groups explored is faulty
   std::vector<BehaviorId> available;
   std::vector<Requested> requested;
-  SituationPart situation;
+  std::vector<Situated> variables;
+  std::vector<SituationPart::Own> own;
+  std::vector<StateCondition> negated;  ///< none of these holds
+  std::vector<StateCondition> any;      ///< if there are some, one of these holds
+  std::vector<StateCondition> all;      ///< each of these holds
 };
+
+/// The most `not`, `any` and `all` that stand in one another.
+inline constexpr std::size_t most_nested_conditions = 16;
+
+/// Calls `visit` with the condition and all that stand in it.
+template <typename Visit>
+void for_each_condition(const StateCondition& condition, Visit&& visit) {
+  visit(condition);
+  for (const auto* inner : {&condition.negated, &condition.any, &condition.all}) {
+    for (const StateCondition& part : *inner) for_each_condition(part, visit);
+  }
+}
 
 /// One promise.
 struct Property {
   enum class Kind : std::uint8_t {
-    can_start,  ///< wherever the task does not run, its start with the priority is accepted
+    can_start,  ///< where `when` holds and the task does not run, its start with the priority is
+                ///< accepted
     always,     ///< `condition` holds in every state that satisfies `when`
     never,      ///< no state satisfies `condition`
     reachable   ///< some state satisfies `condition`
@@ -92,9 +115,9 @@ struct Property {
   std::size_t line = 0;  ///< in the file
   TaskId task = none;    ///< of can_start
   std::int32_t priority = 1;
-  StateCondition condition;
-  std::optional<StateCondition> when;
-  bool settled = false;  ///< only states with nothing in the queue count
+  StateCondition condition;            ///< not of can_start
+  std::optional<StateCondition> when;  ///< of can_start and always
+  bool settled = false;                ///< only states with nothing in the queue count
 };
 
 /// The situation variables that the conditions of a property name.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,7 +24,8 @@ constexpr Key assumption_keys[] = {{"start"},  {"stop"},      {"successes"}, {"f
 constexpr Key property_keys[] = {{"name"},  {"can_start"}, {"priority"}, {"always"},
                                  {"never"}, {"reachable"}, {"when"},     {"settled"}};
 constexpr Key condition_keys[] = {{"running"}, {"stopped"},   {"active"},    {"active_includes"},
-                                  {"faulty"},  {"available"}, {"requested"}, {"situation"}};
+                                  {"faulty"},  {"available"}, {"requested"}, {"situation"},
+                                  {"not"},     {"any"},       {"all"}};
 
 constexpr const Shape* in_file[] = {&assumptions, &property};
 constexpr const Shape* in_property[] = {&condition};
@@ -32,8 +34,8 @@ constexpr const Shape* in_property[] = {&condition};
 
 const Shape property_file{"a property file", file_keys, nullptr, in_file};
 const Shape assumptions{"an assume", assumption_keys, &property_file};
-const Shape property{"a property", property_keys, &property_file, in_property, true};
-const Shape condition{"a condition", condition_keys, &property};
+const Shape property{"a property", property_keys, &property_file, in_property, true, {}, true};
+const Shape condition{"a condition", condition_keys, &property, {}, false, {}, true};
 
 }  // namespace cbc::shape
 
@@ -227,9 +229,18 @@ struct Detail {
 constexpr Detail details[] = {
     {"priority", "'can_start'",
      [](Property::Kind kind) { return kind == Property::Kind::can_start; }},
-    {"when", "'always'", [](Property::Kind kind) { return kind == Property::Kind::always; }},
+    {"when", "'can_start' and 'always'",
+     [](Property::Kind kind) {
+       return kind == Property::Kind::can_start || kind == Property::Kind::always;
+     }},
     {"settled", "'always', 'never' and 'reachable'",
      [](Property::Kind kind) { return kind != Property::Kind::can_start; }}};
+
+bool belongs(std::string_view key, Property::Kind kind) {
+  return std::all_of(std::begin(details), std::end(details), [&](const Detail& detail) {
+    return detail.key != key || detail.belongs(kind);
+  });
+}
 
 class PropertyReader {
  public:
@@ -317,6 +328,10 @@ class PropertyReader {
   void read_kind(const Fields& fields, Property& property) {
     const std::string_view key = name_of(property.kind);
     const Node& value = *fields.find(key);
+    // Where it does not belong, that is reported already.
+    if (const Node* when = belongs("when", property.kind) ? fields.find("when") : nullptr) {
+      property.when = read_condition(*when, "when", {assumptions_, false}, names_, reporter_);
+    }
     if (property.kind == Property::Kind::can_start) {
       const auto task = names_.find_task(value, key, reporter_);
       if (task) property.task = names_.catalog().task_ids[*task];
@@ -327,10 +342,6 @@ class PropertyReader {
     }
     const bool is_denied = property.kind == Property::Kind::never;
     property.condition = read_condition(value, key, {assumptions_, is_denied}, names_, reporter_);
-    const Node* when = fields.find("when");
-    if (when != nullptr && property.kind == Property::Kind::always) {
-      property.when = read_condition(*when, "when", {assumptions_, false}, names_, reporter_);
-    }
     if (const Node* settled = fields.find("settled")) {
       property.settled = yaml::read_boolean(*settled, "settled", reporter_).value_or(false);
     }
@@ -374,13 +385,12 @@ bool is_available_at_first(const Assumptions& assumptions, BehaviorId behavior) 
 
 std::set<std::uint32_t> variables_of(const Property& property) {
   std::set<std::uint32_t> variables;
-  for (const VariableValue& value : property.condition.situation.variables) {
-    variables.insert(value.variable);
-  }
-  if (!property.when) return variables;
-  for (const VariableValue& value : property.when->situation.variables) {
-    variables.insert(value.variable);
-  }
+  const auto add = [&variables](const StateCondition& condition) {
+    for (const StateCondition::Situated& part : condition.variables)
+      variables.insert(part.variable);
+  };
+  for_each_condition(property.condition, add);
+  if (property.when) for_each_condition(*property.when, add);
   return variables;
 }
 

@@ -20,6 +20,7 @@
 #include "core/support/system.h"
 #include "runtime/base/text.h"
 #include "verify/engine/state_space.h"
+#include "verify/engine/state_test.h"
 #include "verify/engine/stepper.h"
 
 namespace cbc {
@@ -30,101 +31,6 @@ using Set = Environments::Set;
 using States = StateSpace::States;
 constexpr std::uint32_t never_seen = UINT32_MAX;
 
-/// A condition on the states of a model.
-class StateTest {
- public:
-  StateTest(const Model& model, Environments& environments, const StateCondition& condition)
-      : environments_(environments) {
-    for (const StateCondition::Running& running : condition.running) {
-      const std::uint32_t task = model.find_task(running.task);
-      if (running.behavior == none) {
-        add([](const Stepper& state, Part part) { return state.cells()[part.subject] != 0; }, task);
-      } else {
-        add([](const Stepper& state,
-               Part part) { return state.cells()[part.subject] == part.wanted; },
-            task, cell_of(model, task, model.find_behavior(running.behavior)));
-      }
-    }
-    for (const TaskId task : condition.stopped) {
-      add([](const Stepper& state, Part part) { return state.cells()[part.subject] == 0; },
-          model.find_task(task));
-    }
-    for (const BehaviorId behavior : condition.active) {
-      add([](const Stepper& state,
-             Part part) { return has_bit(state.active().data(), part.subject); },
-          model.find_behavior(behavior));
-    }
-    if (condition.only_active) add_others(model, condition.active);
-    for (const StateCondition::Requested& requested : condition.requested) {
-      add([](const Stepper& state,
-             Part part) { return state.request_of(part.subject) >= part.wanted; },
-          model.find_task(requested.task), model.rank_of(requested.priority) + 1U);
-    }
-    for (const VariableValue& value : condition.situation.variables) {
-      add(environments.with_value(model.find_variable(value.variable), value.value));
-    }
-    for (const SituationPart::Own& own : condition.situation.behaviors) {
-      const Set denied = environments.denied(model.find_behavior(own.behavior));
-      add(own.available ? environments.sets().complement(denied) : denied);
-    }
-    for (const BehaviorId behavior : condition.faulty) {
-      add(environments.faulty(model.find_behavior(behavior)));
-    }
-    for (const BehaviorId behavior : condition.available) {
-      add(environments.available(model.find_behavior(behavior)));
-    }
-  }
-
-  /// The environments in which it holds, with the control that the stepper has loaded.
-  [[nodiscard]] Set holds_in(const Stepper& control) const {
-    const bool may_hold = std::all_of(tests_.begin(), tests_.end(), [&](const Test& test) {
-      return test.holds(control, test.part);
-    });
-    return may_hold ? in_environment_ : Diagrams::empty;
-  }
-  [[nodiscard]] Set in_environment() const { return in_environment_; }
-
- private:
-  struct Part {
-    std::uint32_t subject = 0;
-    std::uint32_t wanted = 0;
-  };
-  struct Test {
-    bool (*holds)(const Stepper& state, Part part);
-    Part part;
-  };
-
-  void add(bool (*test)(const Stepper&, Part), std::uint32_t subject, std::uint32_t wanted = 0) {
-    tests_.push_back({test, {subject, wanted}});
-  }
-  void add(Set environments) {
-    in_environment_ = environments_.sets().both(in_environment_, environments);
-  }
-  /// The behaviors that are not listed are not active.
-  void add_others(const Model& model, const std::vector<BehaviorId>& listed) {
-    for (std::uint32_t behavior = 0; behavior < model.behaviors().size(); ++behavior) {
-      const BehaviorId id = model.behaviors()[behavior].id;
-      if (std::find(listed.begin(), listed.end(), id) != listed.end()) continue;
-      add([](const Stepper& state,
-             Part part) { return !has_bit(state.active().data(), part.subject); },
-          behavior);
-    }
-  }
-  /// None, which no cell has, if the behavior does not perform the task.
-  [[nodiscard]] static std::uint32_t cell_of(const Model& model, std::uint32_t task,
-                                             std::uint32_t behavior) {
-    const BitRange values = model.tasks()[task].values;
-    for (std::uint32_t value = values.begin; value < values.end; ++value) {
-      if (model.behavior_of(value) == behavior) return value - values.begin + 1;
-    }
-    return none;
-  }
-
-  Environments& environments_;
-  std::vector<Test> tests_;  ///< of the control
-  Set in_environment_ = Diagrams::all;
-};
-
 /// Looks for the first states that break a property or, of reachable, show it.
 class PropertyTest {
  public:
@@ -133,13 +39,10 @@ class PropertyTest {
     if (property.kind == Property::Kind::can_start) {
       start_ = space.controls().find_start(model.find_task(property.task),
                                            model.ranks_up_to(property.priority));
-      return;
+    } else {
+      condition_.emplace(model, property.condition, space);
     }
-    condition_.emplace(model, space.environments(), property.condition);
-    keep(space, condition_->in_environment());
-    if (!property.when) return;
-    when_.emplace(model, space.environments(), *property.when);
-    keep(space, when_->in_environment());
+    if (property.when) when_.emplace(model, *property.when, space);
   }
 
   void visit(const States& states, std::uint32_t depth, StateSpace& space) {
@@ -148,8 +51,8 @@ class PropertyTest {
     if (property_.settled && !control.is_settled()) return;
     Diagrams& sets = space.environments().sets();
     Set met = states.environments;
-    if (when_) met = sets.both(met, when_->holds_in(control));
-    const Set holds = condition_->holds_in(control);
+    if (when_) met = sets.both(met, when_->holds_in(control, sets));
+    const Set holds = condition_->holds_in(control, sets);
     met =
         property_.kind == Property::Kind::always ? sets.without(met, holds) : sets.both(met, holds);
     note({states.control, met}, depth, space);
@@ -158,7 +61,13 @@ class PropertyTest {
   /// Of states in which the task does not run.
   void on_refusal(std::uint32_t action, const States& states, std::uint32_t depth,
                   StateSpace& space) {
-    if (action == start_ && first_ >= depth) note(states, depth, space);
+    if (action != start_ || first_ < depth) return;
+    Set met = states.environments;
+    if (when_) {
+      Diagrams& sets = space.environments().sets();
+      met = sets.both(met, when_->holds_in(space.controls().stepper(), sets));
+    }
+    note({states.control, met}, depth, space);
   }
 
   [[nodiscard]] Verdict verdict(const CompiledCatalog& catalog, StateSpace& space) const {
@@ -181,7 +90,6 @@ class PropertyTest {
   }
 
  private:
-  static void keep(StateSpace& space, Set set) { space.keep({0, set}); }
   void note(const States& states, std::uint32_t depth, StateSpace& space) {
     if (states.environments == Diagrams::empty) return;
     first_ = depth;
@@ -325,6 +233,15 @@ Stepper::Options share_memory(const ExplorationOptions& options, std::uint64_t& 
   return result;
 }
 
+/// The conditions of a property, and those that stand in them.
+std::vector<const StateCondition*> conditions_of(const Property& property) {
+  std::vector<const StateCondition*> conditions;
+  const auto add = [&conditions](const StateCondition& part) { conditions.push_back(&part); };
+  for_each_condition(property.condition, add);
+  if (property.when) for_each_condition(*property.when, add);
+  return conditions;
+}
+
 void add_groups(const CompiledCatalog& catalog, const StateCondition& condition,
                 std::set<GroupId>& groups) {
   const auto add_task = [&](TaskId task) { groups.insert(catalog.tasks[task].group); };
@@ -335,14 +252,14 @@ void add_groups(const CompiledCatalog& catalog, const StateCondition& condition,
   for (const BehaviorId behavior : condition.active) add_behavior(behavior);
   for (const BehaviorId behavior : condition.faulty) add_behavior(behavior);
   for (const BehaviorId behavior : condition.available) add_behavior(behavior);
-  for (const auto& own : condition.situation.behaviors) add_behavior(own.behavior);
+  for (const auto& own : condition.own) add_behavior(own.behavior);
 }
 
 void add_groups_of_variables(const CompiledCatalog& catalog, const StateCondition& condition,
                              std::set<GroupId>& groups) {
-  for (const VariableValue& value : condition.situation.variables) {
+  for (const StateCondition::Situated& situated : condition.variables) {
     for (const FittingValue& fitting : catalog.fitting_values) {
-      if (fitting.variable == value.variable) groups.insert(catalog.group_of(fitting.behavior));
+      if (fitting.variable == situated.variable) groups.insert(catalog.group_of(fitting.behavior));
     }
   }
 }
@@ -423,13 +340,20 @@ bool Verification::is_complete() const {
 }
 
 PropertyScope scope_of(const CompiledCatalog& catalog, const Property& property) {
+  const std::vector<const StateCondition*> conditions = conditions_of(property);
   std::set<GroupId> groups;
   if (property.task != none) groups.insert(catalog.tasks[property.task].group);
-  add_groups(catalog, property.condition, groups);
-  if (property.when) add_groups(catalog, *property.when, groups);
+  for (const StateCondition* condition : conditions) add_groups(catalog, *condition, groups);
   if (groups.empty()) {
-    add_groups_of_variables(catalog, property.condition, groups);
-    if (property.when) add_groups_of_variables(catalog, *property.when, groups);
+    for (const StateCondition* condition : conditions) {
+      add_groups_of_variables(catalog, *condition, groups);
+    }
+  }
+  const bool is_about_faults =
+      std::any_of(conditions.begin(), conditions.end(),
+                  [](const StateCondition* condition) { return condition->none_faulty; });
+  if (groups.empty() && is_about_faults) {
+    for (GroupId group(0); group < catalog.group_count(); ++group) groups.insert(group);
   }
   std::set<std::uint32_t> variables = variables_of(property);
   for (const FittingValue& fitting : catalog.fitting_values) {

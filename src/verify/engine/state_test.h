@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/property/properties.h"
+#include "verify/engine/diagrams.h"
+#include "verify/engine/environments.h"
+#include "verify/engine/model.h"
+#include "verify/engine/state_space.h"
+#include "verify/engine/stepper.h"
+
+namespace cbc {
+
+/// A condition on the states of a model: asked for one control, it answers in which environments it
+/// holds.
+class StateTest {
+ public:
+  using Set = Environments::Set;
+
+  /// Its own sets are kept by the state space. The condition is about tasks, behaviors and
+  /// variables of the model only.
+  StateTest(const Model& model, const StateCondition& condition, StateSpace& space);
+
+  /// The environments in which it holds, with the control that the stepper has loaded; among them
+  /// may be some that no state has. The set is not kept.
+  [[nodiscard]] Set holds_in(const Stepper& control, Diagrams& sets) const;
+
+ private:
+  struct Part {
+    std::uint32_t subject = 0;
+    std::uint32_t wanted = 0;
+  };
+  struct Test {
+    bool (*holds)(const Stepper& state, Part part);
+    Part part;
+  };
+
+  void add(bool (*test)(const Stepper&, Part), std::uint32_t subject, std::uint32_t wanted = 0) {
+    tests_.push_back({test, {subject, wanted}});
+  }
+  void add_running(const Model& model, const StateCondition::Running& running);
+  void add_others(const Model& model, const std::vector<BehaviorId>& listed);
+  void add_environments(const Model& model, const StateCondition& condition,
+                        Environments& environments);
+
+  std::vector<Test> tests_;                         ///< of the control: all of them hold
+  std::vector<std::vector<std::uint32_t>> values_;  ///< of the control: it has one of each list
+  Set in_environment_ = Diagrams::all;              ///< parts of the environment
+  std::vector<StateTest> negated_;
+  std::vector<StateTest> any_;
+  std::vector<StateTest> all_;
+};
+
+}  // namespace cbc
