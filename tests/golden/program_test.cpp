@@ -356,6 +356,14 @@ TEST_P(ExcerptsOf, AreWhatTheProgramPrints) {
   }
 }
 
+TEST(Pages, ShowFilesAsTheyAre) {
+  const std::string root = CBC_SOURCE_DIR;
+  const std::string file =
+      test::read_file(root + "/tests/golden/cases/verify_conditions/robot.properties.yaml");
+  EXPECT_NE(test::read_file(root + "/docs/verify.md").find("```yaml\n" + file + "```\n"),
+            std::string::npos);
+}
+
 TEST(Pages, LinkToFilesThatExist) {
   const fs::path root(CBC_SOURCE_DIR);
   std::vector<fs::path> pages = {root / "README.md", root / "CONTRIBUTING.md",
@@ -377,7 +385,7 @@ INSTANTIATE_TEST_SUITE_P(Pages, ExcerptsOf,
                                          std::pair("docs/coverage.md", 2U),
                                          std::pair("docs/recipes.md", 19U),
                                          std::pair("docs/sweeps.md", 1U),
-                                         std::pair("docs/verify.md", 4U)));
+                                         std::pair("docs/verify.md", 5U)));
 
 /// One screen: `man` has the rest.
 TEST(Help, FitsOnAScreen) {

@@ -355,7 +355,7 @@ std::optional<bool> can_be_noticed(const Case& one, const std::string& key,
       Property property;
       property.kind = Property::Kind::reachable;
       property.condition.running = {
-          {catalog.task_ids[performance.task], catalog.behavior_ids[behavior]}};
+          {catalog.task_ids[performance.task], {catalog.behavior_ids[behavior]}}};
       const auto found = is_reachable(one, property, catalog.behavior_ids[behavior]);
       if (!found || *found) return found;
     }

@@ -181,7 +181,7 @@ TEST(PlainExploration, ComparesPrioritiesInTheOrderOfTheList) {
   assumptions.start = {{TaskId(0), {3, 1}}};
   Property runs;
   runs.kind = Property::Kind::reachable;
-  runs.condition.running = {{TaskId(0), none}};
+  runs.condition.running = {{TaskId(0), {}}};
   const Exploration result = explore_all(catalog, assumptions, {&runs});
   EXPECT_EQ(result.verdicts.at(0).result, Verdict::Result::proved);
   EXPECT_EQ(result.verdicts.at(0).script, (std::vector<Move>{{Move::Kind::start, 0, 3}}));

@@ -385,14 +385,22 @@ std::string PlainModel::key(const Snapshot& state) const {
 }
 
 bool PlainModel::holds(const StateCondition& condition, const Snapshot& state) const {
+  const auto is_true = [&](const StateCondition& part) { return holds(part, state); };
+  if (!holds_by_itself(condition, state)) return false;
+  if (std::any_of(condition.negated.begin(), condition.negated.end(), is_true)) return false;
+  if (!std::all_of(condition.all.begin(), condition.all.end(), is_true)) return false;
+  return condition.any.empty() || std::any_of(condition.any.begin(), condition.any.end(), is_true);
+}
+
+bool PlainModel::holds_by_itself(const StateCondition& condition, const Snapshot& state) const {
   const auto all = [](const auto& items, auto&& test) {
     return std::all_of(items.begin(), items.end(), test);
   };
   return all(condition.running,
              [&](const StateCondition::Running& part) {
                const auto* const entry = find_running(state, part.task);
-               return entry != nullptr &&
-                      (part.behavior == none || behavior_of(catalog_, *entry) == part.behavior);
+               return entry != nullptr && (part.behaviors.empty() ||
+                                           contains(part.behaviors, behavior_of(catalog_, *entry)));
              }) &&
          all(condition.stopped,
              [&](TaskId task) { return find_running(state, task) == nullptr; }) &&
@@ -402,6 +410,7 @@ bool PlainModel::holds(const StateCondition& condition, const Snapshot& state) c
               [&](const auto& entry) { return contains(condition.active, entry.first); })) &&
          all(condition.faulty,
              [&](BehaviorId behavior) { return contains(state.faulty, behavior); }) &&
+         (!condition.none_faulty || state.faulty.empty()) &&
          all(condition.available,
              [&](BehaviorId behavior) {
                return !contains(state.denied, behavior) &&
@@ -413,7 +422,13 @@ bool PlainModel::holds(const StateCondition& condition, const Snapshot& state) c
                return entry != nullptr && entry->request &&
                       entry->request->priority >= part.priority;
              }) &&
-         agrees(condition.situation, state);
+         all(condition.variables,
+             [&](const StateCondition::Situated& part) {
+               return contains(part.values, state.variables[part.variable]);
+             }) &&
+         all(condition.own, [&](const SituationPart::Own& part) {
+           return contains(state.denied, part.behavior) != part.available;
+         });
 }
 
 }  // namespace cbc::plain

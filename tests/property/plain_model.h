@@ -74,6 +74,8 @@ class PlainModel {
 
  private:
   [[nodiscard]] bool has_group(GroupId group) const;
+  /// Without what stands in it.
+  [[nodiscard]] bool holds_by_itself(const StateCondition& condition, const Snapshot& state) const;
   void add_starts(const Snapshot& state, std::vector<Move>& moves) const;
   void add_finishes(const Snapshot& state, std::vector<Move>& moves) const;
   void add_faults(const Snapshot& state, std::vector<Move>& moves) const;

@@ -185,17 +185,18 @@ class QuestionGenerator {
     if (property.kind == Property::Kind::can_start) {
       property.task = random_.pick(tasks_);
       property.priority = static_cast<std::int32_t>(random_.between(1, 3));
+      if (random_.percent(50)) property.when = draw_nested(1 + random_.below(2));
     } else {
       const bool is_always = property.kind == Property::Kind::always;
       if (is_always) {
-        property.condition = draw_condition(1);
+        property.condition = draw_nested(1);
         if (random_.percent(80)) {
           property.when = random_.percent(50) ? describe_state(1 + random_.below(3))
-                                              : draw_condition(1 + random_.below(2));
+                                              : draw_nested(1 + random_.below(2));
         }
       } else {
         property.condition = random_.percent(60) ? describe_state(2 + random_.below(11))
-                                                 : draw_condition(1 + random_.below(3));
+                                                 : draw_nested(1 + random_.below(3));
       }
       property.settled = random_.percent(35);
     }
@@ -261,11 +262,65 @@ class QuestionGenerator {
     return condition;
   }
 
+  /// With others in it, up to three deep.
+  StateCondition draw_nested(std::size_t parts, std::size_t depth = 0) {
+    const bool is_nested = depth < 3 && random_.percent(depth == 0 ? 55 : 35);
+    if (!is_nested) return draw_condition(parts);
+    StateCondition condition = draw_condition(random_.below(parts + 1));
+    const auto add = [&](std::vector<StateCondition>& inner, std::size_t most) {
+      const std::size_t wanted = 1 + random_.below(most);
+      for (std::size_t i = 0; i < wanted; ++i) {
+        inner.push_back(random_.percent(25) ? describe_state(1 + random_.below(3))
+                                            : draw_nested(1 + random_.below(2), depth + 1));
+      }
+    };
+    const std::size_t kind = random_.below(100);
+    if (kind < 45) add(condition.negated, 1);
+    if (kind >= 30 && kind < 80) add(condition.any, 3);
+    if (kind >= 70) add(condition.all, 2);
+    return condition;
+  }
+
   /// Parts that the state far away satisfies.
   StateCondition describe_state(std::size_t parts) {
     StateCondition condition;
     for (std::size_t i = 0; i < parts; ++i) add_fact(condition);
     return condition;
+  }
+
+  /// Some others besides.
+  template <typename Number>
+  std::vector<Number> with_others(Number one, const std::vector<Number>& others) {
+    std::vector<Number> some;
+    for (const Number other : others) {
+      if (other == one || random_.percent(35)) some.push_back(other);
+    }
+    return some;
+  }
+
+  void add_values(StateCondition& condition, VariableValue value) {
+    for (const StateCondition::Situated& entry : condition.variables) {
+      if (entry.variable == value.variable) return;
+    }
+    std::vector<std::uint32_t> all(catalog_.variables[value.variable].value_count);
+    for (std::uint32_t place = 0; place < all.size(); ++place) all[place] = place;
+    condition.variables.push_back({value.variable, random_.percent(50)
+                                                       ? std::vector{value.value}
+                                                       : with_others(value.value, all)});
+  }
+
+  static void add_own(StateCondition& condition, BehaviorId behavior, bool available) {
+    for (const SituationPart::Own& entry : condition.own) {
+      if (entry.behavior == behavior) return;
+    }
+    condition.own.push_back({behavior, available});
+  }
+
+  void add_running(StateCondition& condition, TaskId task, BehaviorId behavior) {
+    std::vector<BehaviorId> performers;
+    for (const Value& value : catalog_.values[task]) performers.push_back(value.behavior);
+    condition.running.push_back(
+        {task, random_.percent(60) ? std::vector{behavior} : with_others(behavior, performers)});
   }
 
   void add_fact(StateCondition& condition) {
@@ -275,10 +330,12 @@ class QuestionGenerator {
       condition.faulty.push_back(random_.pick(state_.faulty));
     } else if (kind < 25 && !variables_.empty()) {
       const std::uint32_t variable = random_.pick(variables_);
-      add_value(condition.situation, {variable, state_.variables[variable]});
+      add_values(condition, {variable, state_.variables[variable]});
     } else if (kind < 32 && !behaviors_.empty()) {
       const BehaviorId behavior = random_.pick(behaviors_);
-      add_own(condition.situation, behavior, !contains(state_.denied, behavior));
+      add_own(condition, behavior, !contains(state_.denied, behavior));
+    } else if (kind < 38 && state_.faulty.empty()) {
+      condition.none_faulty = true;
     } else if (const auto* const entry = find_running(state_, task); entry == nullptr) {
       condition.stopped.push_back(task);
     } else if (const BehaviorId behavior = catalog_.values[task][entry->value_index].behavior;
@@ -291,7 +348,8 @@ class QuestionGenerator {
       condition.only_active = true;
       for (const auto& [active, time] : state_.active) condition.active.push_back(active);
     } else {
-      condition.running.push_back({task, random_.percent(60) ? behavior : none});
+      random_.percent(60) ? add_running(condition, task, behavior)
+                          : condition.running.push_back({task, {}});
     }
   }
 
@@ -302,10 +360,15 @@ class QuestionGenerator {
     if (kind < 25 || behaviors_.empty()) {
       const auto values = catalog_.values[task];
       const bool is_any = values.empty() || random_.percent(50);
-      condition.running.push_back(
-          {task, is_any ? none : values[random_.below(values.size())].behavior});
-    } else if (kind < 45) {
+      if (is_any) {
+        condition.running.push_back({task, {}});
+      } else {
+        add_running(condition, task, values[random_.below(values.size())].behavior);
+      }
+    } else if (kind < 42) {
       condition.stopped.push_back(task);
+    } else if (kind < 46) {
+      condition.none_faulty = true;
     } else if (kind < 58) {
       condition.active.push_back(random_.pick(behaviors_));
       if (random_.percent(30)) condition.only_active = true;
@@ -316,12 +379,12 @@ class QuestionGenerator {
     } else if (kind < 87) {
       condition.requested.push_back({task, random_.pick(priorities)});
     } else if (kind < 95 && !variables_.empty()) {
-      add_value(condition.situation, draw_value(random_.pick(variables_)));
+      add_values(condition, draw_value(random_.pick(variables_)));
     } else if (kind < 97 && !catalog_.variables.empty()) {
       const std::size_t variable = random_.below(catalog_.variables.size());
-      add_value(condition.situation, draw_value(static_cast<std::uint32_t>(variable)));
+      add_values(condition, draw_value(static_cast<std::uint32_t>(variable)));
     } else {
-      add_own(condition.situation, random_.pick(behaviors_), random_.percent(40));
+      add_own(condition, random_.pick(behaviors_), random_.percent(40));
     }
   }
 

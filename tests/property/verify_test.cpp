@@ -7,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 #include <iterator>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,11 +15,13 @@
 #include <gtest/gtest.h>
 
 #include "compiled_text.h"
+#include "condition_text.h"
 #include "demand.h"
 #include "plain_exploration.h"
 #include "question_generator.h"
 #include "random.h"
 #include "random_cases.h"
+#include "statistics.h"
 #include "support/read_file.h"
 #include "verify/engine/explore.h"
 #include "verify_case.h"
@@ -232,6 +235,74 @@ void count_verdict(const Property& property, const Verdict& verdict,
   if (verdict.is_vacuous) statistics.count("vacuous");
 }
 
+std::size_t depth_of(const StateCondition& condition) {
+  std::size_t depth = 0;
+  for (const auto* inner : {&condition.negated, &condition.any, &condition.all}) {
+    for (const StateCondition& part : *inner) depth = std::max(depth, 1 + depth_of(part));
+  }
+  return depth;
+}
+
+/// Which forms of conditions the property has.
+std::set<std::string> forms_of(const Property& property) {
+  std::set<std::string> forms;
+  const auto note = [&](bool has, const char* what) {
+    if (has) forms.insert(what);
+  };
+  const auto look_at = [&](const StateCondition& condition) {
+    note(!condition.negated.empty(), "not");
+    note(condition.any.size() > 1, "any");
+    note(!condition.all.empty(), "all");
+    note(condition.none_faulty, "none faulty");
+    for (const auto& running : condition.running) {
+      note(running.behaviors.size() > 1, "list of behaviors");
+    }
+    for (const auto& situated : condition.variables) {
+      note(situated.values.size() > 1, "list of values");
+    }
+  };
+  for_each_condition(property.condition, look_at);
+  note(depth_of(property.condition) > 1, "nested twice");
+  if (property.when) {
+    for_each_condition(*property.when, look_at);
+    note(depth_of(*property.when) > 1, "nested twice");
+    note(property.kind == Property::Kind::can_start, "can_start when");
+  }
+  return forms;
+}
+
+/// With both answers: what holds always or never says little about how it is tested.
+void count_forms(const VerifyCase& sample, const Exploration& result,
+                 oracle::Statistics& statistics) {
+  for (std::size_t i = 0; i < result.verdicts.size(); ++i) {
+    const std::string answer = result.verdicts[i].has_script ? ", met" : ", not met";
+    for (const std::string& form : forms_of(sample.question.properties[i])) {
+      statistics.count(form + answer);
+    }
+  }
+}
+
+/// What the reader refuses as impossible must be so. What it reads is explored in place of what was
+/// written.
+void read_properties_again(VerifyCase& sample, const Exploration& expected,
+                           oracle::Statistics& statistics) {
+  for (std::size_t i = 0; i < expected.verdicts.size(); ++i) {
+    Property& property = sample.question.properties[i];
+    const bool is_met = expected.verdicts[i].has_script;
+    const bool is_demanded =
+        property.kind == Property::Kind::never || property.kind == Property::Kind::reachable;
+    if ((is_demanded && is_called_impossible(sample.catalog, property.condition)) ||
+        (property.when && is_called_impossible(sample.catalog, *property.when))) {
+      demand(!is_met, "called impossible: " + property.name);
+      statistics.count("called impossible");
+    }
+    if (auto read = read_again(sample.catalog, property)) {
+      property = std::move(*read);
+      statistics.count("read again");
+    }
+  }
+}
+
 void run_case(std::uint64_t seed, oracle::Results& results) {
   VerifyCase sample;
   try {
@@ -239,6 +310,7 @@ void run_case(std::uint64_t seed, oracle::Results& results) {
     const Exploration expected =
         explore_plainly(sample.catalog, sample.question.groups, sample.question.assumptions,
                         sample.properties(), most_states);
+    read_properties_again(sample, expected, results.statistics);
     if (expected.error || expected.complete) {
       compare(sample, expected, 1);
       compare(sample, expected, 3);
@@ -250,6 +322,7 @@ void run_case(std::uint64_t seed, oracle::Results& results) {
         count_verdict(sample.question.properties[i], expected.verdicts[i], results.statistics);
       }
       results.statistics.count(expected.error ? "excluded first state" : "compared");
+      if (!expected.error) count_forms(sample, expected, results.statistics);
     } else {
       compare_beginnings(sample, expected);
       results.statistics.count("compared up to a limit");
@@ -273,6 +346,24 @@ const oracle::LowerBound lower_bounds[] = {
     {"scoped proved", 20},
     {"scoped violated", 20},
     {"vacuous", 20},
+    {"not, met", 200},
+    {"not, not met", 200},
+    {"any, met", 200},
+    {"any, not met", 200},
+    {"all, met", 200},
+    {"all, not met", 200},
+    {"nested twice, met", 200},
+    {"nested twice, not met", 200},
+    {"none faulty, met", 100},
+    {"none faulty, not met", 100},
+    {"list of behaviors, met", 100},
+    {"list of behaviors, not met", 100},
+    {"list of values, met", 50},
+    {"list of values, not met", 10},
+    {"read again", 1500},
+    {"called impossible", 50},
+    {"can_start when, met", 30},
+    {"can_start when, not met", 50},
 };
 
 TEST(Verify, FindsWhatThePlainSearchFinds) {

@@ -31,5 +31,23 @@ exclusivity_constraints: [{mutually_exclusive: [A, C]}]
   EXPECT_EQ(mismatch({}), "expected the active behaviors to be none, but found 'b', 'c'");
 }
 
+TEST(Expectation, OfOneOfSeveralBehaviors) {
+  const CompiledCatalog catalog = test::compile_text(R"(
+behaviors: [{behavior: a, task: A}, {behavior: b, task: A}, {behavior: c, task: A}]
+)");
+  State state(catalog);
+  state.set_active(test::behavior_id(catalog, "c"), 0);
+  state.set_value(TaskId(0), 2, 0);
+  const auto mismatch = [&](const std::vector<std::uint32_t>& behaviors) {
+    Expectation expectation;
+    expectation.running.push_back({0, behaviors});
+    return find_mismatch(expectation, catalog, state, {});
+  };
+  EXPECT_EQ(mismatch({}), "");
+  EXPECT_EQ(mismatch({0, 2}), "");
+  EXPECT_EQ(mismatch({0}), "expected task 'A' to run with 'a', but it runs with 'c'");
+  EXPECT_EQ(mismatch({1, 0}), "expected task 'A' to run with 'b' or 'a', but it runs with 'c'");
+}
+
 }  // namespace
 }  // namespace cbc::expectation_test

@@ -3,12 +3,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/diagnostic/diagnostic.h"
 #include "core/property/properties.h"
 #include "core/yaml/document.h"
+#include "runtime/base/text.h"
 #include "unit/compiled_fixture.h"
 #include "unit/findings.h"
 
@@ -104,8 +106,12 @@ std::string describe(const Assumptions& assumptions) {
 std::string describe(const StateCondition& condition) {
   std::string text;
   for (const StateCondition::Running& running : condition.running) {
-    text += " running " + name_of_task(running.task) + "=" +
-            (running.behavior == none ? "any" : name_of_behavior(running.behavior));
+    std::string behaviors;
+    for (const BehaviorId behavior : running.behaviors) {
+      behaviors += (behaviors.empty() ? "" : "|") + name_of_behavior(behavior);
+    }
+    text +=
+        " running " + name_of_task(running.task) + "=" + (behaviors.empty() ? "any" : behaviors);
   }
   for (const TaskId task : condition.stopped) text += " stopped " + name_of_task(task);
   for (const BehaviorId behavior : condition.active)
@@ -113,20 +119,38 @@ std::string describe(const StateCondition& condition) {
   if (condition.only_active) text += " only";
   for (const BehaviorId behavior : condition.faulty)
     text += " faulty " + name_of_behavior(behavior);
+  if (condition.none_faulty) text += " faulty none";
   for (const BehaviorId behavior : condition.available) {
     text += " available " + name_of_behavior(behavior);
   }
   for (const StateCondition::Requested& requested : condition.requested) {
     text += " requested " + name_of_task(requested.task) + " " + std::to_string(requested.priority);
   }
-  return text + describe(condition.situation);
+  for (const StateCondition::Situated& situated : condition.variables) {
+    std::string values;
+    for (const std::uint32_t value : situated.values) {
+      values += (values.empty() ? "" : "|") +
+                std::string(catalog().name_of_value({situated.variable, value}));
+    }
+    text += " " + std::string(catalog().name_of_variable(situated.variable)) + "=" + values;
+  }
+  text += describe(SituationPart{{}, condition.own});
+  const auto add = [&text](const char* what, const std::vector<StateCondition>& inner) {
+    for (const StateCondition& part : inner) {
+      text += concat(" ", what, "(", describe(part), " )");
+    }
+  };
+  add("not", condition.negated);
+  add("any", condition.any);
+  add("all", condition.all);
+  return text;
 }
 
 std::string describe(const Property& property) {
   std::string text = std::to_string(property.line) + " " + std::string(name_of(property.kind));
   if (!property.name.empty()) text += " '" + property.name + "'";
   if (property.kind == Property::Kind::can_start) {
-    return text + " " + name_of_task(property.task) + " " + std::to_string(property.priority);
+    text += " " + name_of_task(property.task) + " " + std::to_string(property.priority);
   }
   text += describe(property.condition);
   if (property.when) text += " when" + describe(*property.when);
@@ -325,6 +349,9 @@ TEST(Properties, HaveOneKind) {
             "3:3-4 error missing-key: a property needs one of 'can_start', 'always', 'never' and "
             "'reachable'\n");
   EXPECT_EQ(findings_of_property("always: ~"), "3:3-9 error missing-key: 'always' has no value\n");
+  EXPECT_EQ(findings_of_property("eventually: {running: [LAND]}"),
+            "3:3-13 error unknown-key: unknown key 'eventually' in a property; there are 'name', "
+            "'can_start', 'priority', 'always', 'never', 'reachable', 'when' and 'settled'\n");
   EXPECT_EQ(findings_of_property("can_strat: LAND"),
             "3:3-12 error unknown-key: unknown key 'can_strat' in a property; did you mean "
             "'can_start'?\n");
@@ -336,7 +363,8 @@ TEST(Properties, HaveOneKind) {
 TEST(Properties, HaveConditionsThatSaySomething) {
   constexpr const char* message =
       "error missing-key: 'never' needs a condition: one of 'running', 'stopped', 'active', "
-      "'active_includes', 'faulty', 'available', 'requested' and 'situation'\n";
+      "'active_includes', 'faulty', 'available', 'requested', 'situation', 'not', 'any' and "
+      "'all'\n";
   EXPECT_EQ(findings_of_property("never: {}"), std::string("3:10-11 ") + message);
   EXPECT_EQ(findings_of_property("never: {running: ~}"), std::string("3:10-11 ") + message);
   EXPECT_EQ(
@@ -367,7 +395,7 @@ properties:
       "mean 'LAND_PID'?\n"
       "6:25-28 error invalid-value: 'GPS' is listed twice\n"
       "  6:20-23 first listed here\n"
-      "7:13-16 error wrong-type: 'faulty' must be a list of behaviors, found 'GPS'\n"
+      "7:13-16 error wrong-type: 'faulty' must be a list of behaviors or 'none', found 'GPS'\n"
       "8:23-27 error wrong-type: 'TALK' must be an integer from 0 to 2147483647, found "
       "'high'\n"
       "8:29-32 error undefined-task: there is no task 'LND'; did you mean 'LAND'?\n"
@@ -375,7 +403,9 @@ properties:
       "values are 'true' and 'false'\n"
       "9:39-40 error situation-value: situation variable 'LIGHT' has no value '1'; its values "
       "are 'day', 'dusk' and 'night'\n"
-      "10:5-12 error unknown-key: unknown key 'outcome' in a condition\n");
+      "10:5-12 error unknown-key: unknown key 'outcome' in a condition; there are 'running', "
+      "'stopped', 'active', 'active_includes', 'faulty', 'available', 'requested', 'situation', "
+      "'not', 'any' and 'all'\n");
 }
 
 // Conditions that never hold ---------------------------------------------------------------------

@@ -204,7 +204,7 @@ Step translate(const Step& step, const CompiledCatalog& from, const CompiledCata
   if (result.expect) {
     for (auto& running : result.expect->running) {
       running.task = task(running.task);
-      if (running.behavior) running.behavior = behavior(*running.behavior);
+      for (std::uint32_t& one : running.behaviors) one = behavior(one);
     }
     for (std::uint32_t& stopped : result.expect->stopped) stopped = task(stopped);
     return result;
@@ -241,9 +241,12 @@ void leave_out_missing(const CompiledCatalog& catalog, const Translation& to_oth
   std::erase_if(expectation.stopped, is_missing);
   std::erase_if(expectation.running, [&](const auto& running) { return is_missing(running.task); });
   for (auto& running : expectation.running) {
-    if (running.behavior && to_other.behaviors[catalog.behavior_ids[*running.behavior]] == none) {
-      running.behavior.reset();
-    }
+    // Without one of the behaviors, the others alone would be a stronger demand.
+    const bool lacks_one = std::any_of(
+        running.behaviors.begin(), running.behaviors.end(), [&](std::uint32_t behavior) {
+          return to_other.behaviors[catalog.behavior_ids[behavior]] == none;
+        });
+    if (lacks_one) running.behaviors.clear();
   }
 }
 

@@ -1,11 +1,11 @@
-
-#include <algorithm>
-#include <optional>
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/diagnostic/rules.h"
+#include "core/property/condition_checks.h"
 #include "core/property/property_reader.h"
 #include "core/script/expectation.h"
 #include "core/yaml/values.h"
@@ -19,97 +19,64 @@ using yaml::Fields;
 using yaml::Kind;
 using yaml::Node;
 
-/// What contradicts itself has no meaning.
-constexpr Standing of_contradiction{Severity::error, true};
-
-using NamedTask = StateClaims::Task;
-using NamedBehavior = StateClaims::Behavior;
-
-/// The place of a key in a mapping that has it.
-const Range& range_of(const Node& mapping, std::string_view key) {
-  return std::find_if(mapping.entries.begin(), mapping.entries.end(),
-                      [key](const auto& entry) { return entry.first->text == key; })
-      ->first->range;
-}
-
-/// Reads a condition, part by part, and then checks what its parts say together.
+/// Reads a condition, and those that stand in it.
 class ConditionReader {
  public:
-  ConditionReader(const ConditionChecks& checks, NameIndex& names, Reporter& reporter)
-      : checks_(checks), names_(names), catalog_(names.catalog()), reporter_(reporter) {}
+  ConditionReader(NameIndex& names, Reporter& reporter)
+      : names_(names), catalog_(names.catalog()), reporter_(reporter) {}
 
-  StateCondition read(const Node& node, std::string_view what) && {
-    if (yaml::read_mapping(node, what, "a mapping", reporter_) == nullptr) return {};
-    const std::size_t errors = reporter_.errors();
+  /// `depth`: in how many others it stands.
+  WrittenCondition read(const Node& node, std::string_view what, std::size_t depth = 0) {
+    WrittenCondition condition;
+    if (yaml::read_mapping(node, what, "a mapping", reporter_) == nullptr) return condition;
+    if (depth > most_nested_conditions) {
+      reporter_.report(rule::invalid_value, node.range,
+                       concat("conditions may stand in one another ", most_nested_conditions,
+                              " deep, and this one is deeper"));
+      return condition;
+    }
     Fields fields(node, shape::condition, reporter_);
-    if (const Node* part = fields.find("running")) read_running_part(*part);
-    if (const Node* part = fields.find("stopped")) read_stopped(*part);
-    for (const std::string_view key : {"active", "active_includes"}) {
-      if (const Node* part = fields.find(key)) active_ = read_behaviors(*part, key);
+    bool is_empty = true;
+    const auto find = [&](std::string_view key) {
+      const Node* const part = fields.find(key);
+      is_empty &= part == nullptr;
+      return part;
+    };
+    ConditionClaims& claims = condition.claims;
+    if (const Node* part = find("running")) claims.values.running = read_running_part(*part);
+    if (const Node* part = find("stopped")) claims.values.stopped = read_tasks(*part, "stopped");
+    if (const Node* part = find("active")) {
+      claims.values.active = read_behaviors(*part, "active");
+      StateClaims::Only& only = claims.values.only_active.emplace_back();
+      only.range = fields.range_of("active");
+      for (const auto& behavior : claims.values.active) only.behaviors.push_back(behavior.id);
     }
-    if (fields.has("active")) only_active_ = fields.range_of("active");
+    if (const Node* part = find("active_includes")) {
+      claims.values.active = read_behaviors(*part, "active_includes");
+    }
     check_active_keys(fields, reporter_);
-    if (const Node* part = fields.find("faulty")) faulty_ = read_behaviors(*part, "faulty");
-    if (const Node* part = fields.find("available")) {
-      available_ = read_behaviors(*part, "available");
+    if (const Node* part = find("faulty")) read_faulty(*part, fields.range_of("faulty"), claims);
+    if (const Node* part = find("available")) {
+      claims.available = read_behaviors(*part, "available");
     }
-    if (const Node* part = fields.find("requested")) read_requested(*part);
-    if (const Node* part = fields.find("situation")) read_situation_part(*part);
+    if (const Node* part = find("requested")) read_requested(*part, claims);
+    if (const Node* part = find("situation")) read_situation_part(*part, claims);
+    if (const Node* part = find("not")) condition.negated.push_back(read(*part, "not", depth + 1));
+    if (const Node* part = find("any")) condition.any = read_conditions(*part, "any", depth);
+    if (const Node* part = find("all")) condition.all = read_conditions(*part, "all", depth);
+    const std::size_t errors = reporter_.errors();
     fields.report_unknown(yaml::UnknownKeys::refused);
-    if (reporter_.errors() > errors) return {};
-    check_values();
-    check_requested();
-    check_available();
-    if (reporter_.errors() > errors) return {};
-    check_fitting();
-    check_constraints();
-    check_assumptions();
-    StateCondition condition = take();
-    if (is_empty(condition)) {
-      reporter_.report(rule::missing_key, node.range,
-                       quote(what) + " needs a condition: one of " + quoted_list(shape::condition));
+    if (is_empty && reporter_.errors() == errors) {
+      reporter_.report(
+          rule::missing_key, node.range,
+          quote(what) + " needs a condition: one of " + yaml::list_keys(shape::condition));
     }
     return condition;
   }
 
  private:
-  static std::string quoted_list(const yaml::Shape& shape) {
-    std::string text;
-    for (const yaml::Key& key : shape.keys) {
-      if (!text.empty()) text += key.name == shape.keys.back().name ? " and " : ", ";
-      text += quote(key.name);
-    }
-    return text;
-  }
-
-  static bool is_empty(const StateCondition& condition) {
-    return condition.running.empty() && condition.stopped.empty() && condition.active.empty() &&
-           condition.faulty.empty() && condition.available.empty() && condition.requested.empty() &&
-           condition.situation.variables.empty() && condition.situation.behaviors.empty();
-  }
-
-  void read_running_part(const Node& node) {
-    if (node.kind != Kind::sequence) {
-      if (node.kind == Kind::mapping) {
-        running_ = read_running(node, names_, of_contradiction, reporter_);
-      } else {
-        yaml::report_wrong_type(node, "running",
-                                "a list of tasks, or a mapping of tasks to behaviors or 'any'",
-                                reporter_);
-      }
-      return;
-    }
-    if (!read_names(node, "running", "a list of tasks")) return;
-    ListedNames listed;
-    for (const Node* item : node.items) {
-      const auto task = names_.find_task(*item, "running", reporter_, &node);
-      if (!task || !listed.add(*task, *item, reporter_)) continue;
-      running_.push_back({*task, std::nullopt, item->range, item->range});
-    }
-  }
-
   /// Whether the node is a list. An empty one says nothing, and is reported.
-  bool read_names(const Node& node, std::string_view what, std::string_view expected) {
+  bool read_items(const Node& node, std::string_view what, std::string_view expected) {
     if (yaml::read_list(node, what, expected, reporter_) == nullptr) return false;
     if (!node.items.empty()) return true;
     reporter_.report(rule::invalid_value, node.range,
@@ -117,20 +84,43 @@ class ConditionReader {
     return false;
   }
 
-  void read_stopped(const Node& node) {
-    if (!read_names(node, "stopped", "a list of tasks")) return;
-    ListedNames listed;
-    for (const Node* item : node.items) {
-      const auto task = names_.find_task(*item, "stopped", reporter_, &node);
-      if (!task || !listed.add(*task, *item, reporter_)) continue;
-      check_stopped(*task, item->range, running_, catalog_, of_contradiction, reporter_);
-      stopped_.push_back({catalog_.task_ids[*task], item->range});
-    }
+  std::vector<WrittenCondition> read_conditions(const Node& node, std::string_view what,
+                                                std::size_t depth) {
+    std::vector<WrittenCondition> conditions;
+    if (!read_items(node, what, "a list of conditions")) return conditions;
+    for (const Node* item : node.items) conditions.push_back(read(*item, what, depth + 1));
+    return conditions;
   }
 
-  std::vector<NamedBehavior> read_behaviors(const Node& node, std::string_view what) {
-    std::vector<NamedBehavior> behaviors;
-    if (!read_names(node, what, "a list of behaviors")) return behaviors;
+  std::vector<StateClaims::Running> read_running_part(const Node& node) {
+    std::vector<StateClaims::Running> running;
+    if (node.kind == Kind::mapping) return read_running(node, names_, reporter_);
+    if (node.kind != Kind::sequence) {
+      yaml::report_wrong_type(node, "running",
+                              "a list of tasks, or a mapping of tasks to behaviors or 'any'",
+                              reporter_);
+      return running;
+    }
+    for (const StateClaims::Task& task : read_tasks(node, "running")) running.push_back({task, {}});
+    return running;
+  }
+
+  std::vector<StateClaims::Task> read_tasks(const Node& node, std::string_view what) {
+    std::vector<StateClaims::Task> tasks;
+    if (!read_items(node, what, "a list of tasks")) return tasks;
+    ListedNames listed;
+    for (const Node* item : node.items) {
+      const auto task = names_.find_task(*item, what, reporter_, &node);
+      if (!task || !listed.add(*task, *item, reporter_)) continue;
+      tasks.push_back({catalog_.task_ids[*task], item->range});
+    }
+    return tasks;
+  }
+
+  std::vector<StateClaims::Behavior> read_behaviors(
+      const Node& node, std::string_view what, std::string_view expected = "a list of behaviors") {
+    std::vector<StateClaims::Behavior> behaviors;
+    if (!read_items(node, what, expected)) return behaviors;
     ListedNames listed;
     for (const Node* item : node.items) {
       const auto behavior = names_.find_behavior(*item, what, reporter_, &node);
@@ -140,7 +130,15 @@ class ConditionReader {
     return behaviors;
   }
 
-  void read_requested(const Node& node) {
+  void read_faulty(const Node& node, const Range& key, ConditionClaims& claims) {
+    if (node.kind == Kind::scalar && node.text == "none") {
+      claims.none_faulty.push_back(key);
+    } else {
+      claims.faulty = read_behaviors(node, "faulty", "a list of behaviors or 'none'");
+    }
+  }
+
+  void read_requested(const Node& node, ConditionClaims& claims) {
     if (yaml::read_mapping(node, "requested", "a mapping of tasks to priorities", reporter_) ==
         nullptr) {
       return;
@@ -151,221 +149,64 @@ class ConditionReader {
       // A reactive start makes a request with priority 0.
       const auto priority = yaml::read_integer(*value, key->text, 0, reporter_);
       if (!task || !priority) continue;
-      requested_.push_back({{catalog_.task_ids[*task], key->range}, *priority});
+      claims.requested.push_back({{catalog_.task_ids[*task], key->range}, *priority});
     }
   }
 
-  void read_situation_part(const Node& node) {
-    if (const auto situation = read_situation(node, names_, reporter_)) {
-      situation_ = part_of(*situation, catalog_);
-      situation_node_ = &node;
+  void read_situation_part(const Node& node, ConditionClaims& claims) {
+    auto entries = read_possible_situation(node, names_, reporter_);
+    if (!entries) return;
+    for (SituationEntry& entry : *entries) {
+      if (entry.part.is_variable) {
+        claims.variables.push_back({{entry.part.place, std::move(entry.values)}, entry.range});
+      } else {
+        claims.own.push_back(
+            {{catalog_.behavior_ids[entry.part.place], entry.available}, entry.range});
+      }
     }
   }
 
-  // Contradictions -------------------------------------------------------------------------------
-
-  void refuse(const Range& range, const std::string& why, std::vector<Note> notes = {}) {
-    reporter_.report_as(of_contradiction, rule::impossible_expectation, range,
-                        "this can never hold: " + why, std::move(notes));
-  }
-
-  /// What is said of the values of tasks.
-  [[nodiscard]] StateClaims claims() const {
-    StateClaims claims;
-    for (const RunningEntry& entry : running_) {
-      claims.running.push_back(claim_of(entry, catalog_));
-    }
-    claims.stopped = stopped_;
-    claims.active = active_;
-    claims.only_active = only_active_;
-    return claims;
-  }
-
-  void check_values() {
-    find_contradictions(claims(), catalog_, reporter_,
-                        [this](const Range& range, const std::string& why,
-                               std::vector<Note> notes) { refuse(range, why, std::move(notes)); });
-  }
-
-  void check_requested() {
-    for (const Requested& requested : requested_) {
-      const TaskId task = requested.task.id;
-      const auto stop = std::find_if(stopped_.begin(), stopped_.end(),
-                                     [task](const NamedTask& entry) { return entry.id == task; });
-      if (stop == stopped_.end()) continue;
-      refuse(requested.task.range,
-             "task " + quote(catalog_.name_of_task(task)) +
-                 " is also expected to be stopped, and loses its request then",
-             {reporter_.note(stop->range, "expected to be stopped here")});
-    }
-  }
-
-  void check_available() {
-    for (const SituationPart::Own& own : situation_.behaviors) {
-      if (own.available) continue;
-      const auto named =
-          std::find_if(available_.begin(), available_.end(),
-                       [&own](const NamedBehavior& entry) { return entry.id == own.behavior; });
-      if (named == available_.end()) continue;
-      const std::string_view name = catalog_.name_of_behavior(own.behavior);
-      refuse(named->range, "behavior " + quote(name) + " is also expected to be unavailable",
-             {reporter_.note(range_of(*situation_node_, name), "expected to be unavailable here")});
-    }
-  }
-
-  // What the catalog and the assumptions rule out ------------------------------------------------
-
-  void doubt(const Range& range, const std::string& why, std::vector<Note> notes = {}) {
-    const Severity severity = checks_.is_denied ? Severity::note : Severity::warning;
-    const char* const what =
-        checks_.is_denied ? "this is ruled out already: " : "this can never hold: ";
-    reporter_.report_as({severity}, rule::impossible_expectation, range, what + why,
-                        std::move(notes));
-  }
-
-  void check_fitting() {
-    std::vector<NamedBehavior> fitting = available_;
-    fitting.insert(fitting.end(), active_.begin(), active_.end());
-    for (const RunningEntry& entry : running_) {
-      if (!entry.behavior) continue;
-      fitting.push_back({catalog_.behavior_ids[*entry.behavior], entry.behavior_range});
-    }
-    for (const NamedBehavior& behavior : fitting) {
-      for (const VariableValue value : situation_.variables) check_fits(behavior, value);
-    }
-  }
-
-  void check_fits(const NamedBehavior& behavior, VariableValue value) {
-    bool is_named = false;
-    for (const FittingValue& fitting : catalog_.fitting_values_of(behavior.id)) {
-      if (fitting.variable != value.variable) continue;
-      if (fitting.value == value.value) return;
-      is_named = true;
-    }
-    if (!is_named) return;
-    const std::string_view variable = catalog_.name_of_variable(value.variable);
-    doubt(behavior.range,
-          "behavior " + quote(catalog_.name_of_behavior(behavior.id)) + " does not fit " +
-              quote(concat(variable, ": ", catalog_.name_of_value(value))),
-          {reporter_.note(range_of(*situation_node_, variable), "expected here")});
-  }
-
-  /// Exclusions of the tasks that run if the condition holds, and their requirements; but what
-  /// follows from requirements may well be what a property denies.
-  void check_constraints() {
-    StateClaims all = claims();
-    for (const Requested& requested : requested_) all.running.push_back({requested.task, {}});
-    const auto find = checks_.is_denied ? find_excluded : find_ruled_out;
-    find(all, catalog_, reporter_,
-         [this](const Range& range, const std::string& why, std::vector<Note> notes) {
-           doubt(range, why, std::move(notes));
-         });
-  }
-
-  void check_assumptions() {
-    if (checks_.assumptions == nullptr) return;
-    const Assumptions& assumptions = *checks_.assumptions;
-    if (faulty_.size() > assumptions.faults) {
-      doubt(faulty_[assumptions.faults].range,
-            assumptions.faults == 0
-                ? "no behavior becomes faulty, as 'faults' of 'assume' is 0"
-                : concat("'faults' of 'assume' allows only ", assumptions.faults, " at a time"));
-    }
-    for (const Requested& requested : requested_) check_priority(requested, assumptions);
-    for (const VariableValue value : situation_.variables) check_variable(value, assumptions);
-    for (const SituationPart::Own& own : situation_.behaviors) check_own(own, assumptions);
-  }
-
-  void check_variable(VariableValue wanted, const Assumptions& assumptions) {
-    if (initial_value(assumptions, wanted.variable) == wanted.value) return;
-    const auto& changing = assumptions.variables;
-    if (std::find(changing.begin(), changing.end(), wanted.variable) != changing.end()) return;
-    report_constant(catalog_.name_of_variable(wanted.variable));
-  }
-
-  void check_own(SituationPart::Own wanted, const Assumptions& assumptions) {
-    if (is_available_at_first(assumptions, wanted.behavior) == wanted.available) return;
-    const auto& changing = assumptions.behaviors;
-    if (std::find(changing.begin(), changing.end(), wanted.behavior) != changing.end()) return;
-    report_constant(catalog_.name_of_behavior(wanted.behavior));
-  }
-
-  void report_constant(std::string_view name) {
-    doubt(range_of(*situation_node_, name),
-          quote(name) + " never changes, as 'situation' of 'assume' does not list it");
-  }
-
-  struct Requested {
-    NamedTask task;
-    std::int32_t priority = 0;
-  };
-
-  void check_priority(const Requested& requested, const Assumptions& assumptions) {
-    if (requested.priority == 0) return;
-    const auto start = std::find_if(
-        assumptions.start.begin(), assumptions.start.end(),
-        [&requested](const Assumptions::Start& entry) { return entry.task == requested.task.id; });
-    const std::string name = quote(catalog_.name_of_task(requested.task.id));
-    if (start == assumptions.start.end()) {
-      doubt(requested.task.range,
-            "task " + name + " is never requested, as 'start' of 'assume' does not list it");
-      return;
-    }
-    const auto highest = std::max_element(start->priorities.begin(), start->priorities.end());
-    if (highest == start->priorities.end() || requested.priority <= *highest) return;
-    doubt(requested.task.range,
-          concat("'start' of 'assume' requests task ", name, " with at most priority ", *highest));
-  }
-
-  StateCondition take() const {
-    StateCondition condition;
-    for (const RunningEntry& entry : running_) {
-      condition.running.push_back({catalog_.task_ids[entry.task],
-                                   entry.behavior ? catalog_.behavior_ids[*entry.behavior] : none});
-    }
-    const auto ids = [](const auto& named) {
-      std::vector<decltype(named.front().id)> all;
-      all.reserve(named.size());
-      for (const auto& entry : named) all.push_back(entry.id);
-      return all;
-    };
-    condition.stopped = ids(stopped_);
-    condition.active = ids(active_);
-    condition.only_active = only_active_.has_value();
-    condition.faulty = ids(faulty_);
-    condition.available = ids(available_);
-    for (const Requested& requested : requested_) {
-      condition.requested.push_back({requested.task.id, requested.priority});
-    }
-    condition.situation = situation_;
-    return condition;
-  }
-
-  const ConditionChecks& checks_;
   NameIndex& names_;
   const CompiledCatalog& catalog_;
   Reporter& reporter_;
-  std::vector<RunningEntry> running_;
-  std::vector<NamedTask> stopped_;
-  std::vector<NamedBehavior> active_;
-  std::optional<Range> only_active_;
-  std::vector<NamedBehavior> faulty_;
-  std::vector<NamedBehavior> available_;
-  std::vector<Requested> requested_;
-  SituationPart situation_;
-  const Node* situation_node_ = nullptr;
 };
 
-}  // namespace
-
-bool ListedNames::add(std::uint32_t place, const Node& node, Reporter& reporter) {
-  const auto [first, is_new] = first_.try_emplace(place, node.range);
-  if (!is_new) {
-    reporter.report(rule::invalid_value, node.range, quote(node.text) + " is listed twice",
-                    {reporter.note(first->second, "first listed here")});
+StateCondition condition_of(const WrittenCondition& written) {
+  const auto ids = [](const auto& named) {
+    std::vector<decltype(named.front().id)> all;
+    all.reserve(named.size());
+    for (const auto& entry : named) all.push_back(entry.id);
+    return all;
+  };
+  const auto parts = [](const std::vector<WrittenCondition>& inner) {
+    std::vector<StateCondition> all;
+    all.reserve(inner.size());
+    for (const WrittenCondition& part : inner) all.push_back(condition_of(part));
+    return all;
+  };
+  const ConditionClaims& claims = written.claims;
+  StateCondition condition;
+  for (const StateClaims::Running& entry : claims.values.running) {
+    condition.running.push_back({entry.task.id, ids(entry.behaviors)});
   }
-  return is_new;
+  condition.stopped = ids(claims.values.stopped);
+  condition.active = ids(claims.values.active);
+  condition.only_active = !claims.values.only_active.empty();
+  condition.faulty = ids(claims.faulty);
+  condition.none_faulty = !claims.none_faulty.empty();
+  condition.available = ids(claims.available);
+  for (const auto& entry : claims.requested) {
+    condition.requested.push_back({entry.task.id, entry.priority});
+  }
+  for (const auto& entry : claims.variables) condition.variables.push_back(entry.part);
+  for (const auto& entry : claims.own) condition.own.push_back(entry.part);
+  condition.negated = parts(written.negated);
+  condition.any = parts(written.any);
+  condition.all = parts(written.all);
+  return condition;
 }
+
+}  // namespace
 
 SituationPart part_of(const Situation& situation, const CompiledCatalog& catalog) {
   SituationPart part;
@@ -378,7 +219,11 @@ SituationPart part_of(const Situation& situation, const CompiledCatalog& catalog
 
 StateCondition read_condition(const Node& node, std::string_view what,
                               const ConditionChecks& checks, NameIndex& names, Reporter& reporter) {
-  return ConditionReader(checks, names, reporter).read(node, what);
+  const std::size_t errors = reporter.errors();
+  const WrittenCondition written = ConditionReader(names, reporter).read(node, what);
+  if (reporter.errors() > errors) return {};
+  check_condition(written, checks, names.catalog(), reporter);
+  return condition_of(written);
 }
 
 }  // namespace cbc

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,7 +26,8 @@ constexpr Key property_keys[] = {{"name"},  {"can_start"}, {"priority"},      {"
                                  {"when"},  {"settled"},   {"after"},         {"until"},
                                  {"by"},    {"within"}};
 constexpr Key condition_keys[] = {{"running"}, {"stopped"},   {"active"},    {"active_includes"},
-                                  {"faulty"},  {"available"}, {"requested"}, {"situation"}};
+                                  {"faulty"},  {"available"}, {"requested"}, {"situation"},
+                                  {"not"},     {"any"},       {"all"}};
 
 constexpr const Shape* in_file[] = {&assumptions, &property};
 constexpr const Shape* in_property[] = {&condition};
@@ -34,8 +36,8 @@ constexpr const Shape* in_property[] = {&condition};
 
 const Shape property_file{"a property file", file_keys, nullptr, in_file};
 const Shape assumptions{"an assume", assumption_keys, &property_file};
-const Shape property{"a property", property_keys, &property_file, in_property, true};
-const Shape condition{"a condition", condition_keys, &property};
+const Shape property{"a property", property_keys, &property_file, in_property, true, {}, true};
+const Shape condition{"a condition", condition_keys, &property, {}, false, {}, true};
 
 }  // namespace cbc::shape
 
@@ -250,6 +252,12 @@ constexpr Detail details[] = {
     {"within", "'always_possible'",
      [](Property::Kind kind) { return kind == Property::Kind::always_possible; }}};
 
+bool belongs(std::string_view key, Property::Kind kind) {
+  return std::all_of(std::begin(details), std::end(details), [&](const Detail& detail) {
+    return detail.key != key || detail.belongs(kind);
+  });
+}
+
 class PropertyReader {
  public:
   PropertyReader(const CompiledCatalog& catalog, std::vector<NamePlace>* names, Reporter& reporter)
@@ -348,9 +356,9 @@ class PropertyReader {
     if (const Node* priority = fields.find("priority")) {
       property.priority = yaml::read_integer(*priority, "priority", 1, reporter_).value_or(1);
     }
-    property.when = read_part(fields, "when");
-    property.after = read_part(fields, "after");
-    property.until = read_part(fields, "until");
+    property.when = read_part(fields, "when", property.kind);
+    property.after = read_part(fields, "after", property.kind);
+    property.until = read_part(fields, "until", property.kind);
     if (property.until && !property.after) {
       reporter_.report(rule::missing_key, fields.range_of("until"),
                        "'until' needs 'after', which says where the promise begins");
@@ -365,9 +373,11 @@ class PropertyReader {
     }
   }
 
-  std::optional<StateCondition> read_part(const Fields& fields, std::string_view key) {
+  /// Where the key does not belong, that is reported already.
+  std::optional<StateCondition> read_part(const Fields& fields, std::string_view key,
+                                          Property::Kind kind) {
     const Node* node = fields.find(key);
-    if (node == nullptr) return std::nullopt;
+    if (node == nullptr || !belongs(key, kind)) return std::nullopt;
     return read_condition(*node, key, {assumptions_, false}, names_, reporter_);
   }
 
@@ -485,20 +495,23 @@ bool is_available_at_first(const Assumptions& assumptions, BehaviorId behavior) 
 }
 
 std::vector<const StateCondition*> conditions_of(const Property& property) {
-  std::vector<const StateCondition*> conditions = {&property.condition};
+  std::vector<const StateCondition*> conditions;
+  const auto add = [&conditions](const StateCondition& part) { conditions.push_back(&part); };
+  for_each_condition(property.condition, add);
   for (const auto* part : {&property.when, &property.after, &property.until}) {
-    if (*part) conditions.push_back(&**part);
+    if (*part) for_each_condition(**part, add);
   }
   return conditions;
 }
 
 std::set<std::uint32_t> variables_of(const Property& property) {
   std::set<std::uint32_t> variables;
-  for (const StateCondition* condition : conditions_of(property)) {
-    for (const VariableValue& value : condition->situation.variables) {
-      variables.insert(value.variable);
+  const auto add = [&variables](const StateCondition& condition) {
+    for (const StateCondition::Situated& part : condition.variables) {
+      variables.insert(part.variable);
     }
-  }
+  };
+  for (const StateCondition* condition : conditions_of(property)) add(*condition);
   return variables;
 }
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
@@ -40,16 +39,6 @@ namespace cbc {
 [[nodiscard]] bool lacks_properties(const yaml::Document& document, const PropertyFile& file);
 
 // Parts of the reader of property files: conditions, and what assumptions share with them.
-
-/// Finds names that are listed twice.
-class ListedNames {
- public:
-  /// Returns whether `place`, which `node` names, is new in the list; reports it if it is not.
-  bool add(std::uint32_t place, const yaml::Node& node, Reporter& reporter);
-
- private:
-  std::unordered_map<std::uint32_t, Range> first_;
-};
 
 /// With the numbers of the compiled catalog in place of those of the file.
 [[nodiscard]] SituationPart part_of(const Situation& situation, const CompiledCatalog& catalog);

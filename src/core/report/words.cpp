@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/report/condition_words.h"
 #include "core/report/layout.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
@@ -59,9 +60,11 @@ std::string describe_value(const CompiledCatalog& catalog, VariableValue value) 
                      printable(catalog.name_of_value(value)));
 }
 
-std::string describe_running(const CompiledCatalog& catalog, TaskId task, BehaviorId behavior) {
+std::string describe_running(const CompiledCatalog& catalog, TaskId task,
+                             std::span<const BehaviorId> behaviors) {
   const std::string text = printable(catalog.name_of_task(task)) + " runs";
-  return behavior == none ? text : text + " with " + printable(catalog.name_of_behavior(behavior));
+  return behaviors.empty() ? text
+                           : text + " with " + list_with_or(names_of_behaviors(catalog, behaviors));
 }
 
 std::string describe_situation(const CompiledCatalog& catalog, const Situation& situation) {
@@ -78,46 +81,7 @@ std::string describe_situation(const CompiledCatalog& catalog, const Situation& 
 
 namespace {
 
-std::string describe_condition(const CompiledCatalog& catalog, const StateCondition& condition) {
-  std::vector<std::string> parts;
-  const auto task = [&](TaskId id) { return printable(catalog.name_of_task(id)); };
-  const auto behavior = [&](BehaviorId id) { return printable(catalog.name_of_behavior(id)); };
-  for (const auto& running : condition.running) {
-    parts.push_back(describe_running(catalog, running.task, running.behavior));
-  }
-  for (const TaskId id : condition.stopped) {
-    parts.push_back(fmt::format("{} does not run", task(id)));
-  }
-  if (condition.only_active) {
-    const bool is_one = condition.active.size() == 1;
-    parts.push_back(fmt::format("only {} {} {} active", is_one ? "behavior" : "the behaviors",
-                                join(condition.active, ", ", behavior), is_one ? "is" : "are"));
-  } else {
-    for (const BehaviorId id : condition.active) {
-      parts.push_back(fmt::format("behavior {} is active", behavior(id)));
-    }
-  }
-  for (const auto& requested : condition.requested) {
-    parts.push_back(fmt::format("{} is requested with priority {} or more", task(requested.task),
-                                requested.priority));
-  }
-  for (const VariableValue& value : condition.situation.variables) {
-    parts.push_back(describe_value(catalog, value));
-  }
-  for (const auto& own : condition.situation.behaviors) {
-    parts.push_back(fmt::format("the situation {} {}", own.available ? "allows" : "forbids",
-                                behavior(own.behavior)));
-  }
-  for (const BehaviorId id : condition.available) {
-    parts.push_back(fmt::format("behavior {} is available", behavior(id)));
-  }
-  for (const BehaviorId id : condition.faulty) {
-    parts.push_back(fmt::format("behavior {} is faulty", behavior(id)));
-  }
-  return join(parts, " and ");
-}
-
-/// "moves of the kinds start (LAND), stop and queue"
+/// "start (LAND), stop and queue"
 std::string describe_move_kinds(const CompiledCatalog& catalog, const MoveKinds& kinds) {
   std::vector<std::string> words;
   for (const MoveKindWord& known : move_kind_words) {
@@ -366,9 +330,11 @@ std::string describe_expectation(const CompiledCatalog& catalog, const Expectati
   if (expectation.outcome)
     parts.push_back(fmt::format("outcome {}", name_of(*expectation.outcome)));
   for (const Expectation::Running& expected : expectation.running) {
-    parts.push_back(
-        describe_running(catalog, catalog.task_ids[expected.task],
-                         expected.behavior ? catalog.behavior_ids[*expected.behavior] : none));
+    std::vector<BehaviorId> behaviors;
+    for (const std::uint32_t one : expected.behaviors) {
+      behaviors.push_back(catalog.behavior_ids[one]);
+    }
+    parts.push_back(describe_running(catalog, catalog.task_ids[expected.task], behaviors));
   }
   for (const std::uint32_t task : expectation.stopped) {
     parts.push_back(printable(catalog.task_names[task]) + " does not run");

@@ -19,12 +19,13 @@ using NamedBehavior = StateClaims::Behavior;
 /// The claims by what they are about.
 class ClaimIndex {
  public:
-  explicit ClaimIndex(const StateClaims& claims)
-      : says_all_active_(claims.only_active.has_value()) {
+  explicit ClaimIndex(const StateClaims& claims) : claims_(claims) {
     for (const NamedTask& task : claims.stopped) stopped_.try_emplace(task.id, &task);
-    for (const NamedBehavior& behavior : claims.active) active_.insert(behavior.id);
+    for (const StateClaims::Only& only : claims.only_active) {
+      only_.emplace_back(only.behaviors.begin(), only.behaviors.end());
+    }
     for (const StateClaims::Running& entry : claims.running) {
-      if (entry.behavior) chosen_.insert(entry.task.id);
+      if (!entry.behaviors.empty()) chosen_.insert(entry.task.id);
     }
   }
 
@@ -33,17 +34,24 @@ class ClaimIndex {
     const auto found = stopped_.find(task);
     return found == stopped_.end() ? nullptr : found->second;
   }
-  [[nodiscard]] bool is_active(BehaviorId behavior) const { return active_.contains(behavior); }
-  [[nodiscard]] bool may_be_active(BehaviorId behavior) const {
-    return !says_all_active_ || is_active(behavior);
+  /// The place of a list of all active behaviors that the behavior is not on; null if there is
+  /// none.
+  [[nodiscard]] const Range* excluding(BehaviorId behavior) const {
+    for (std::size_t place = 0; place < only_.size(); ++place) {
+      if (!only_[place].contains(behavior)) return &claims_.only_active[place].range;
+    }
+    return nullptr;
   }
-  /// Whether a task is to run with a certain behavior.
-  [[nodiscard]] bool has_behavior(TaskId task) const { return chosen_.contains(task); }
+  [[nodiscard]] bool may_be_active(BehaviorId behavior) const {
+    return excluding(behavior) == nullptr;
+  }
+  /// Whether a task is to run with certain behaviors.
+  [[nodiscard]] bool has_behaviors(TaskId task) const { return chosen_.contains(task); }
 
  private:
-  bool says_all_active_;
+  const StateClaims& claims_;
   std::unordered_map<TaskId, const NamedTask*> stopped_;
-  std::unordered_set<BehaviorId> active_;
+  std::vector<std::unordered_set<BehaviorId>> only_;
   std::unordered_set<TaskId> chosen_;
 };
 
@@ -52,6 +60,25 @@ bool is_performed(const ClaimIndex& index, const CompiledCatalog& catalog, TaskI
   const auto values = catalog.values[task];
   return std::any_of(values.begin(), values.end(),
                      [&index](const Value& value) { return index.may_be_active(value.behavior); });
+}
+
+bool performs(const CompiledCatalog& catalog, BehaviorId behavior, TaskId task) {
+  const auto values = catalog.values[task];
+  return std::any_of(values.begin(), values.end(),
+                     [behavior](const Value& value) { return value.behavior == behavior; });
+}
+
+/// "behavior 'GPS' does not perform task 'LAND', it performs 'LOCALIZE'"
+std::string describe_misplaced(const CompiledCatalog& catalog, BehaviorId behavior, TaskId task) {
+  std::vector<std::uint32_t> performed;
+  for (const ValueId value : catalog.performs[behavior]) {
+    performed.push_back(catalog.tasks[catalog.task_of(value)].catalog_index);
+  }
+  const std::uint32_t first = *std::min_element(performed.begin(), performed.end());
+  std::string tasks = quote(catalog.task_names[first]);
+  if (performed.size() > 1) tasks += concat(" and ", performed.size() - 1, " more");
+  return concat("behavior ", quote(catalog.name_of_behavior(behavior)), " does not perform task ",
+                quote(catalog.name_of_task(task)), ", it performs ", tasks);
 }
 
 /// What is examined, and who takes what is found.
@@ -79,11 +106,12 @@ class Placement : private Examination {
   using Examination::Examination;
 
   void find() && {
-    for (const StateClaims::Running& entry : claims_.running) {
-      if (entry.behavior) taken_[entry.task.id].push_back(*entry.behavior);
-    }
+    check_performers();
+    check_stopped();
+    take_tasks();
     std::vector<const NamedBehavior*> waiting;
     for (const NamedBehavior& behavior : claims_.active) {
+      if (!index_.may_be_active(behavior.id)) continue;  // check_others() says so
       if (open_.try_emplace(behavior.id, &behavior).second) waiting.push_back(&behavior);
     }
     std::reverse(waiting.begin(), waiting.end());
@@ -99,10 +127,66 @@ class Placement : private Examination {
         if (other != open_.end()) waiting.push_back(other->second);
       }
     }
-    if (claims_.only_active) check_others();
+    if (!claims_.only_active.empty()) check_others();
   }
 
  private:
+  /// Of the behaviors that are listed for a task, one must perform it.
+  void check_performers() {
+    for (const StateClaims::Running& entry : claims_.running) {
+      const auto& listed = entry.behaviors;
+      const auto fits = [&](const NamedBehavior& behavior) {
+        return performs(catalog_, behavior.id, entry.task.id);
+      };
+      if (listed.empty() || std::any_of(listed.begin(), listed.end(), fits)) {
+        running_.push_back(&entry);
+        continue;
+      }
+      for (const NamedBehavior& behavior : listed) {
+        on_contradiction_(behavior.range, describe_misplaced(catalog_, behavior.id, entry.task.id),
+                          {});
+      }
+    }
+  }
+
+  void check_stopped() {
+    std::unordered_map<TaskId, const NamedTask*> running;
+    for (const StateClaims::Running& entry : claims_.running) {
+      running.try_emplace(entry.task.id, &entry.task);
+    }
+    for (const NamedTask& task : claims_.stopped) {
+      const auto runs = running.find(task.id);
+      if (runs == running.end()) continue;
+      on_contradiction_(
+          task.range,
+          concat("task ", quote(catalog_.name_of_task(task.id)), " is also expected to run"),
+          {reporter_.note(runs->second->range, "expected to run here")});
+    }
+  }
+
+  /// For the behaviors that tasks are to run with. Of several that are listed for a task, those are
+  /// left that all lists have.
+  void take_tasks() {
+    std::unordered_map<TaskId, std::vector<NamedBehavior>> left;
+    for (const StateClaims::Running* running : running_) {
+      const StateClaims::Running& entry = *running;
+      if (entry.behaviors.empty()) continue;
+      const auto [found, is_first] = left.try_emplace(entry.task.id, entry.behaviors);
+      taken_[entry.task.id].push_back(entry.behaviors);
+      if (is_first || found->second.empty()) continue;
+      const Range before = found->second.front().range;
+      std::unordered_set<BehaviorId> listed;
+      for (const NamedBehavior& behavior : entry.behaviors) listed.insert(behavior.id);
+      std::erase_if(found->second,
+                    [&](const NamedBehavior& behavior) { return !listed.contains(behavior.id); });
+      if (!found->second.empty()) continue;
+      on_contradiction_(entry.behaviors.front().range,
+                        concat("task ", quote(catalog_.name_of_task(entry.task.id)),
+                               " is also expected to run with another behavior"),
+                        {reporter_.note(before, "expected here")});
+    }
+  }
+
   /// If it is settled which task the behavior performs, or that there is none, the behavior is no
   /// longer open. Returns the task.
   std::optional<TaskId> place(const NamedBehavior& behavior) {
@@ -129,7 +213,7 @@ class Placement : private Examination {
           std::move(notes));
       return std::nullopt;
     }
-    taken_[left.front()].push_back(behavior);
+    taken_[left.front()].push_back({behavior});
     return left.front();
   }
 
@@ -137,35 +221,56 @@ class Placement : private Examination {
   [[nodiscard]] const NamedBehavior* other_behavior(TaskId task, BehaviorId behavior) const {
     const auto found = taken_.find(task);
     if (found == taken_.end()) return nullptr;
-    const auto other =
-        std::find_if(found->second.begin(), found->second.end(),
-                     [behavior](const NamedBehavior& entry) { return entry.id != behavior; });
-    return other == found->second.end() ? nullptr : &*other;
+    const auto is_behavior = [behavior](const NamedBehavior& entry) {
+      return entry.id == behavior;
+    };
+    for (const std::vector<NamedBehavior>& listed : found->second) {
+      if (std::none_of(listed.begin(), listed.end(), is_behavior)) return &listed.front();
+    }
+    return nullptr;
   }
 
   /// Only the behaviors that are listed are active.
   void check_others() {
-    const auto note = [this] {
-      return std::vector{reporter_.note(*claims_.only_active, "no other behavior is to be active")};
+    const auto complain = [this](const Range& range, const std::string& why, const Range& only) {
+      on_contradiction_(range, why, {reporter_.note(only, "no other behavior is to be active")});
     };
-    for (const StateClaims::Running& entry : claims_.running) {
-      if (entry.behavior) {
-        if (index_.is_active(entry.behavior->id)) continue;
-        on_contradiction_(entry.behavior->range,
-                          "behavior " + quote(catalog_.name_of_behavior(entry.behavior->id)) +
-                              " is not among those that are to be active",
-                          note());
-      } else if (!is_performed(index_, catalog_, entry.task.id)) {
-        on_contradiction_(entry.task.range,
-                          "no behavior that performs task " +
-                              quote(catalog_.name_of_task(entry.task.id)) +
-                              " is among those that are to be active",
-                          note());
+    const auto is_missing = [this](const NamedBehavior& behavior) {
+      return concat("behavior ", quote(catalog_.name_of_behavior(behavior.id)),
+                    " is not among those that are to be active");
+    };
+    for (const NamedBehavior& behavior : claims_.active) {
+      if (const Range* only = index_.excluding(behavior.id)) {
+        complain(behavior.range, is_missing(behavior), *only);
+      }
+    }
+    const Range& only = claims_.only_active.front().range;
+    for (const StateClaims::Running* running : running_) {
+      const auto& listed = running->behaviors;
+      const TaskId task = running->task.id;
+      const auto may_be_active = [this](const NamedBehavior& behavior) {
+        return index_.may_be_active(behavior.id);
+      };
+      if (listed.empty()) {
+        if (is_performed(index_, catalog_, task)) continue;
+        complain(running->task.range,
+                 concat("no behavior that performs task ", quote(catalog_.name_of_task(task)),
+                        " is among those that are to be active"),
+                 only);
+      } else if (std::none_of(listed.begin(), listed.end(), may_be_active)) {
+        complain(listed.front().range,
+                 listed.size() == 1 ? is_missing(listed.front())
+                                    : concat("none of the behaviors listed for task ",
+                                             quote(catalog_.name_of_task(task)),
+                                             " is among those that are to be active"),
+                 only);
       }
     }
   }
 
-  std::unordered_map<TaskId, std::vector<NamedBehavior>> taken_;
+  std::vector<const StateClaims::Running*> running_;  ///< without those of check_performers()
+  /// By task, who may perform it: one of each list does.
+  std::unordered_map<TaskId, std::vector<std::vector<NamedBehavior>>> taken_;
   std::unordered_map<BehaviorId, const NamedBehavior*> open_;  ///< active, with several tasks left
 };
 
@@ -178,6 +283,10 @@ class Consequences : private Examination {
   void add_claimed() {
     for (const StateClaims::Running& entry : claims_.running) {
       add({entry.task.id, entry.task.range, std::nullopt});
+      for (const NamedBehavior& behavior : entry.behaviors) {
+        if (performs(catalog_, behavior.id, entry.task.id)) continue;
+        complain(behavior.range, describe_misplaced(catalog_, behavior.id, entry.task.id), {});
+      }
     }
     for (const NamedBehavior& active : claims_.active) {
       const auto performed = catalog_.performs[active.id];
@@ -189,14 +298,20 @@ class Consequences : private Examination {
   /// All that is required by what runs. To be called after add_claimed().
   void add_required() {
     for (const StateClaims::Running& entry : claims_.running) {
-      if (entry.behavior) require({entry.behavior->id}, entry.behavior->range, std::nullopt);
+      std::vector<BehaviorId> behaviors;
+      for (const NamedBehavior& behavior : entry.behaviors) {
+        const bool is_left =
+            performs(catalog_, behavior.id, entry.task.id) && index_.may_be_active(behavior.id);
+        if (is_left) behaviors.push_back(behavior.id);
+      }
+      if (!behaviors.empty()) require(behaviors, entry.behaviors.front().range, std::nullopt);
     }
     for (const NamedBehavior& active : claims_.active)
       require({active.id}, active.range, std::nullopt);
     // More are added on the way.
     for (std::size_t place = 0; place < running_.size(); ++place) {
       const Running& entry = running_[place];
-      if (index_.has_behavior(entry.task)) continue;
+      if (index_.has_behaviors(entry.task)) continue;
       std::vector<BehaviorId> behaviors;
       for (const Value& value : catalog_.values[entry.task]) {
         if (index_.may_be_active(value.behavior)) behaviors.push_back(value.behavior);
@@ -276,10 +391,12 @@ class Consequences : private Examination {
     if (const NamedTask* stop = index_.stopped(running.task)) {
       complain(running.range, describe_reason(running), {},
                {reporter_.note(stop->range, "expected to be stopped here")});
+    } else if (catalog_.values[running.task].empty()) {
+      complain(running.range, describe_reason(running), "no behavior performs it");
     } else if (!is_performed(index_, catalog_, running.task)) {
-      complain(running.range, describe_reason(running),
-               "no behavior that performs it is to be active",
-               {reporter_.note(*claims_.only_active, "no other behavior is to be active")});
+      complain(
+          running.range, describe_reason(running), "no behavior that performs it is to be active",
+          {reporter_.note(claims_.only_active.front().range, "no other behavior is to be active")});
     }
   }
 

@@ -18,33 +18,6 @@ namespace {
 using yaml::Kind;
 using yaml::Node;
 
-/// Whether the behavior that a task is to run with performs it.
-bool performs(const CompiledCatalog& catalog, const StateClaims::Running& claim) {
-  if (!claim.behavior) return true;
-  const auto values = catalog.values[claim.task.id];
-  return std::any_of(values.begin(), values.end(),
-                     [&claim](const Value& value) { return value.behavior == claim.behavior->id; });
-}
-
-void check_performs(const RunningEntry& entry, const CompiledCatalog& catalog,
-                    const Standing& standing, Reporter& reporter) {
-  if (performs(catalog, claim_of(entry, catalog))) return;
-  std::vector<std::uint32_t> performed;
-  for (const ValueId value : catalog.performs[catalog.behavior_ids[*entry.behavior]]) {
-    performed.push_back(catalog.tasks[catalog.task_of(value)].catalog_index);
-  }
-  const std::uint32_t first = *std::min_element(performed.begin(), performed.end());
-  std::string performed_tasks = quote(catalog.task_names[first]);
-  if (performed.size() > 1) {
-    performed_tasks += " and " + std::to_string(performed.size() - 1) + " more";
-  }
-  reporter.report_as(standing, rule::impossible_expectation, entry.behavior_range,
-                     "this can never hold: behavior " +
-                         quote(catalog.behavior_names[*entry.behavior]) +
-                         " does not perform task " + quote(catalog.task_names[entry.task]) +
-                         ", it performs " + performed_tasks);
-}
-
 class ExpectationReader {
  public:
   ExpectationReader(NameIndex& names, Reporter& reporter) : names_(names), reporter_(reporter) {}
@@ -56,19 +29,15 @@ class ExpectationReader {
     if (const Node* outcome = fields.find("outcome")) {
       out_.outcome = read_word<Outcome>(*outcome, "outcome", reporter_);
     }
-    std::vector<RunningEntry> running;
     if (const Node* entries = fields.find("running")) {
-      running = read_running(*entries, names_, of_impossible, reporter_);
+      claims_.running = read_running(*entries, names_, reporter_);
     }
-    for (const RunningEntry& entry : running) out_.running.push_back({entry.task, entry.behavior});
-    for (const RunningEntry& entry : running) {
-      const StateClaims::Running claim = claim_of(entry, names_.catalog());
-      if (performs(names_.catalog(), claim)) claims_.running.push_back(claim);
-    }
-    if (const Node* stopped = fields.find("stopped")) read_stopped(*stopped, running);
+    if (const Node* stopped = fields.find("stopped")) read_stopped(*stopped);
     if (const Node* active = fields.find("active")) {
       out_.active = read_active(*active, "active");
-      claims_.only_active = fields.range_of("active");
+      StateClaims::Only& only = claims_.only_active.emplace_back();
+      only.range = fields.range_of("active");
+      for (const StateClaims::Behavior& entry : claims_.active) only.behaviors.push_back(entry.id);
     }
     if (const Node* active = fields.find("active_includes")) {
       out_.active_includes = read_active(*active, "active_includes");
@@ -76,6 +45,14 @@ class ExpectationReader {
     check_active_keys(fields, reporter_);
     fields.report_unknown(yaml::UnknownKeys::refused);
     if (reporter_.errors() == errors) check_claims();
+    const CompiledCatalog& catalog = names_.catalog();
+    for (const StateClaims::Running& entry : claims_.running) {
+      auto& running = out_.running.emplace_back();
+      running.task = catalog.tasks[entry.task.id].catalog_index;
+      for (const StateClaims::Behavior& behavior : entry.behaviors) {
+        running.behaviors.push_back(catalog.behaviors[behavior.id].catalog_index);
+      }
+    }
     return std::move(out_);
   }
 
@@ -83,14 +60,13 @@ class ExpectationReader {
   /// The script has a meaning even so.
   static constexpr Standing of_impossible{Severity::warning};
 
-  void read_stopped(const Node& node, const std::vector<RunningEntry>& running) {
+  void read_stopped(const Node& node) {
     if (yaml::read_list(node, "stopped", "a list of tasks", reporter_) == nullptr) return;
     for (const Node* item : node.items) {
       const auto task = names_.find_task(*item, "stopped", reporter_, &node);
       if (!task) continue;
       out_.stopped.push_back(*task);
       claims_.stopped.push_back({names_.catalog().task_ids[*task], item->range});
-      check_stopped(*task, item->range, running, names_.catalog(), of_impossible, reporter_);
     }
   }
 
@@ -130,31 +106,47 @@ Expectation read_expectation(const Node& node, NameIndex& names, Reporter& repor
   return ExpectationReader(names, reporter).read(node);
 }
 
-StateClaims::Running claim_of(const RunningEntry& entry, const CompiledCatalog& catalog) {
-  StateClaims::Running claim{{catalog.task_ids[entry.task], entry.task_range}, std::nullopt};
-  if (entry.behavior) {
-    claim.behavior = {catalog.behavior_ids[*entry.behavior], entry.behavior_range};
+namespace {
+
+/// A behavior, or several of them.
+std::vector<StateClaims::Behavior> read_performers(const Node& node, std::string_view task,
+                                                   NameIndex& names, Reporter& reporter) {
+  std::vector<StateClaims::Behavior> behaviors;
+  const std::vector<const Node*> single{&node};
+  const bool is_list = node.kind == Kind::sequence;
+  if (node.kind != Kind::scalar && (!is_list || node.items.empty())) {
+    yaml::report_wrong_type(node, task, "a behavior, a list of behaviors or 'any'", reporter);
+    return behaviors;
   }
-  return claim;
+  ListedNames listed;
+  for (const Node* item : is_list ? node.items : single) {
+    if (is_list && item->kind == Kind::scalar && item->text == "any") {
+      reporter.report(rule::invalid_value, item->range,
+                      "'any' stands in place of a list, not in it");
+      continue;
+    }
+    const auto behavior = names.find_behavior(*item, task, reporter, is_list ? &node : nullptr);
+    if (!behavior || !listed.add(*behavior, *item, reporter)) continue;
+    behaviors.push_back({names.catalog().behavior_ids[*behavior], item->range});
+  }
+  return behaviors;
 }
 
-std::vector<RunningEntry> read_running(const Node& node, NameIndex& names,
-                                       const Standing& of_misfit, Reporter& reporter) {
+}  // namespace
+
+std::vector<StateClaims::Running> read_running(const Node& node, NameIndex& names,
+                                               Reporter& reporter) {
   constexpr std::string_view expected = "a mapping of tasks to behaviors or 'any'";
-  std::vector<RunningEntry> running;
+  std::vector<StateClaims::Running> running;
   if (yaml::read_mapping(node, "running", expected, reporter) == nullptr) return running;
   yaml::report_duplicate_keys(node, reporter);
   for (const auto& [key, value] : node.entries) {
     const auto task = names.find_task(*key, "running", reporter, &node);
-    RunningEntry entry{task.value_or(0), std::nullopt, key->range, value->range};
-    if (value->kind != Kind::scalar) {
-      yaml::report_wrong_type(*value, key->text, "a behavior or 'any'", reporter);
-    } else if (value->text != "any") {
-      entry.behavior = names.find_behavior(*value, key->text, reporter);
-    }
-    if (!task) continue;
-    if (entry.behavior) check_performs(entry, names.catalog(), of_misfit, reporter);
-    running.push_back(entry);
+    const bool is_any = value->kind == Kind::scalar && value->text == "any";
+    auto behaviors = is_any ? std::vector<StateClaims::Behavior>()
+                            : read_performers(*value, key->text, names, reporter);
+    if (!task || (!is_any && behaviors.empty())) continue;
+    running.push_back({{names.catalog().task_ids[*task], key->range}, std::move(behaviors)});
   }
   return running;
 }
@@ -165,17 +157,6 @@ void check_active_keys(const yaml::Fields& fields, Reporter& reporter) {
                   "'active' lists all behaviors that are active: leave out 'active_includes', or "
                   "'active'",
                   {reporter.note(fields.range_of("active"), "all active behaviors are here")});
-}
-
-void check_stopped(std::uint32_t task, const Range& range, const std::vector<RunningEntry>& running,
-                   const CompiledCatalog& catalog, const Standing& standing, Reporter& reporter) {
-  const auto runs = std::find_if(running.begin(), running.end(),
-                                 [task](const RunningEntry& entry) { return entry.task == task; });
-  if (runs == running.end()) return;
-  reporter.report_as(
-      standing, rule::impossible_expectation, range,
-      "this can never hold: task " + quote(catalog.task_names[task]) + " is also expected to run",
-      {reporter.note(runs->task_range, "expected to run here")});
 }
 
 namespace {
@@ -244,22 +225,42 @@ class ExpectedGroups {
 
   void add_running(const Expectation::Running& expected) {
     const TaskId task = catalog_.task_ids[expected.task];
-    if (!expected.behavior) {
+    if (expected.behaviors.empty()) {
       demand({Demand::Kind::run, task, none});
       if (!state_.is_running(task)) note_mismatch(task);
       return;
     }
-    const BehaviorId behavior = catalog_.behavior_ids[*expected.behavior];
+    std::vector<Demand> demands;
+    bool holds = false;
     const auto values = catalog_.values[task];
-    const auto value = std::find_if(values.begin(), values.end(), [behavior](const Value& one) {
-      return one.behavior == behavior;
-    });
-    if (value == values.end()) {
-      group_of(task).is_impossible = true;
+    for (const std::uint32_t index : expected.behaviors) {
+      const BehaviorId behavior = catalog_.behavior_ids[index];
+      const auto value = std::find_if(values.begin(), values.end(), [behavior](const Value& one) {
+        return one.behavior == behavior;
+      });
+      if (value == values.end()) continue;
+      demands.push_back(
+          {Demand::Kind::has, task, static_cast<std::uint32_t>(value - values.begin())});
+      holds |= state_.behavior(task) == behavior;
+    }
+    demand_one_of(demands, group_of(task));
+    if (!holds) note_mismatch(task);
+  }
+
+  /// Without any, the expectation can never hold.
+  static void demand_one_of(const std::vector<Demand>& demands, Group& group) {
+    if (demands.empty() || group.ways.size() * demands.size() > most_ways) {
+      group.is_impossible = true;
       return;
     }
-    demand({Demand::Kind::has, task, static_cast<std::uint32_t>(value - values.begin())});
-    if (state_.behavior(task) != behavior) note_mismatch(task);
+    std::vector<Demands> ways;
+    for (const Demands& way : group.ways) {
+      for (const Demand& demand : demands) {
+        ways.push_back(way);
+        ways.back().push_back(demand);
+      }
+    }
+    group.ways = std::move(ways);
   }
 
   void add_active(const std::vector<std::uint32_t>& behaviors) {
@@ -289,20 +290,11 @@ class ExpectedGroups {
 
   void add_active_behavior(BehaviorId behavior) {
     const auto performed = catalog_.performs[behavior];
+    std::vector<Demand> demands;
+    for (const ValueId value : performed) demands.push_back(demand_of(Demand::Kind::has, value));
     Group& group = groups_[catalog_.group_of(behavior)];
-    if (group.ways.size() * performed.size() > most_ways) {
-      group.is_impossible = true;
-      return;
-    }
-    std::vector<Demands> ways;
-    for (const Demands& way : group.ways) {
-      for (const ValueId value : performed) {
-        ways.push_back(way);
-        ways.back().push_back(demand_of(Demand::Kind::has, value));
-      }
-    }
-    group.ways = std::move(ways);
-    if (state_.is_active(behavior)) return;
+    demand_one_of(demands, group);
+    if (group.is_impossible || state_.is_active(behavior)) return;
     for (const ValueId value : performed) note_mismatch(catalog_.task_of(value));
   }
 

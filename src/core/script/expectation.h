@@ -31,14 +31,18 @@ struct StateClaims {
   using Behavior = Named<BehaviorId>;
   struct Running {
     Task task;
-    std::optional<Behavior> behavior;  ///< empty: any
+    std::vector<Behavior> behaviors;  ///< one of these; empty: any
+  };
+  /// No behavior but these is active.
+  struct Only {
+    Range range;  ///< of what says so
+    std::vector<BehaviorId> behaviors;
   };
 
   std::vector<Running> running;
   std::vector<Task> stopped;
   std::vector<Behavior> active;
-  /// Where it is said that no other behavior is active, if it is.
-  std::optional<Range> only_active;
+  std::vector<Only> only_active;  ///< whose behaviors are among `active`
 };
 
 /// Takes why something can never hold, the place that says it, and places that say otherwise.
@@ -46,13 +50,12 @@ using OnContradiction =
     std::function<void(const Range& range, const std::string& why, std::vector<Note> notes)>;
 
 /// Finds claims that contradict each other in any catalog with these behaviors: an active behavior
-/// performs a task, and a task has one behavior at most. Tasks that are to run and to be stopped
-/// are not reported, nor are behaviors that do not perform their task.
+/// performs a task, a task has one behavior at most, and none if it is stopped.
 void find_contradictions(const StateClaims& claims, const CompiledCatalog& catalog,
                          const Reporter& reporter, const OnContradiction& on_contradiction);
 
-/// Finds claims that exclusions of the catalog do not allow together. It knows nothing of
-/// performances.
+/// Finds claims that exclusions of the catalog do not allow together, and behaviors that do not
+/// perform the task that they are listed for, though others do. It knows nothing of performances.
 void find_excluded(const StateClaims& claims, const CompiledCatalog& catalog,
                    const Reporter& reporter, const OnContradiction& on_contradiction);
 
@@ -68,29 +71,13 @@ void find_ruled_out(const StateClaims& claims, const CompiledCatalog& catalog,
 [[nodiscard]] Expectation read_expectation(const yaml::Node& node, NameIndex& names,
                                            Reporter& reporter);
 
-/// A task that is expected to run, as it is written. Numbers are places in the catalog.
-struct RunningEntry {
-  std::uint32_t task = 0;
-  std::optional<std::uint32_t> behavior;  ///< empty: any
-  Range task_range;
-  Range behavior_range;  ///< of `task_range`, if a list names the task alone
-};
-
-/// The same for checks of what is claimed together.
-[[nodiscard]] StateClaims::Running claim_of(const RunningEntry& entry,
-                                            const CompiledCatalog& catalog);
-
-/// Reads a mapping of tasks to behaviors or 'any'. Entries with mistakes are left out. `of_misfit`:
-/// how a behavior counts that does not perform its task.
-[[nodiscard]] std::vector<RunningEntry> read_running(const yaml::Node& node, NameIndex& names,
-                                                     const Standing& of_misfit, Reporter& reporter);
+/// Reads a mapping of tasks to behaviors, lists of behaviors or 'any'. Entries with mistakes are
+/// left out.
+[[nodiscard]] std::vector<StateClaims::Running> read_running(const yaml::Node& node,
+                                                             NameIndex& names, Reporter& reporter);
 
 /// Reports a list of all active behaviors beside a list of some of them.
 void check_active_keys(const yaml::Fields& fields, Reporter& reporter);
-
-/// Reports a task that is expected to be stopped, and is one of those that are expected to run.
-void check_stopped(std::uint32_t task, const Range& range, const std::vector<RunningEntry>& running,
-                   const CompiledCatalog& catalog, const Standing& standing, Reporter& reporter);
 
 /// What an expectation that does not hold demands of one group of tasks.
 struct ExpectedValues {

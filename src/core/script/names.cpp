@@ -129,15 +129,35 @@ std::optional<VariableValue> read_value(std::uint32_t variable, const yaml::Node
   return std::nullopt;
 }
 
-}  // namespace
+/// One value, or any of a list.
+std::vector<std::uint32_t> read_values(std::uint32_t variable, const yaml::Node& node,
+                                       NameIndex& names, Reporter& reporter) {
+  const std::vector<const yaml::Node*> single{&node};
+  const bool is_list = node.kind == yaml::Kind::sequence;
+  if (is_list && node.items.empty()) {
+    yaml::report_wrong_type(node, names.catalog().name_of_variable(variable),
+                            "a value of the situation variable or a list of some", reporter);
+  }
+  std::vector<std::uint32_t> values;
+  ListedNames listed;
+  bool is_understood = true;
+  for (const yaml::Node* item : is_list ? node.items : single) {
+    const auto read = read_value(variable, *item, names, reporter);
+    is_understood &= read && listed.add(read->value, *item, reporter);
+    if (read) values.push_back(read->value);
+  }
+  if (!is_understood) values.clear();
+  return values;
+}
 
-std::optional<Situation> read_situation(const yaml::Node& node, NameIndex& names,
-                                        Reporter& reporter) {
+/// `takes_lists`: of the values of a variable.
+std::optional<std::vector<SituationEntry>> read_entries(const yaml::Node& node, bool takes_lists,
+                                                        NameIndex& names, Reporter& reporter) {
   constexpr std::string_view expected =
       "a mapping of behaviors to true or false, or of situation variables to values";
   if (yaml::read_mapping(node, "situation", expected, reporter) == nullptr) return std::nullopt;
   yaml::report_duplicate_keys(node, reporter);
-  Situation situation;
+  std::vector<SituationEntry> entries;
   bool is_understood = true;
   for (const auto& [key, value] : node.entries) {
     if (value->kind == yaml::Kind::null) {
@@ -145,18 +165,60 @@ std::optional<Situation> read_situation(const yaml::Node& node, NameIndex& names
       continue;
     }
     const auto part = names.find_part(*key, reporter, &node);
+    SituationEntry entry;
+    entry.range = key->range;
+    bool is_valid = false;
     if (part && part->is_variable) {
-      const auto read = read_value(part->place, *value, names, reporter);
-      if (read) situation.variables.push_back(*read);
-      is_understood &= read.has_value();
-      continue;
+      if (takes_lists) {
+        entry.values = read_values(part->place, *value, names, reporter);
+      } else if (const auto read = read_value(part->place, *value, names, reporter)) {
+        entry.values.push_back(read->value);
+      }
+      is_valid = !entry.values.empty();
+    } else if (part) {
+      // The value of an unknown name may be one of a variable, which the catalog lacks.
+      const auto available = yaml::read_boolean(*value, key->text, reporter);
+      entry.available = available.value_or(true);
+      is_valid = available.has_value();
     }
-    // The value of an unknown name may be one of a variable, which the catalog lacks.
-    const auto available = part ? yaml::read_boolean(*value, key->text, reporter) : std::nullopt;
-    if (available) situation.availability.push_back({part->place, *available});
-    is_understood &= available.has_value();
+    is_understood &= is_valid;
+    if (!is_valid) continue;
+    entry.part = *part;
+    entries.push_back(std::move(entry));
   }
-  return is_understood ? std::optional(std::move(situation)) : std::nullopt;
+  return is_understood ? std::optional(std::move(entries)) : std::nullopt;
+}
+
+}  // namespace
+
+bool ListedNames::add(std::uint32_t place, const yaml::Node& node, Reporter& reporter) {
+  const auto [first, is_new] = first_.try_emplace(place, node.range);
+  if (!is_new) {
+    reporter.report(rule::invalid_value, node.range, quote(node.text) + " is listed twice",
+                    {reporter.note(first->second, "first listed here")});
+  }
+  return is_new;
+}
+
+std::optional<Situation> read_situation(const yaml::Node& node, NameIndex& names,
+                                        Reporter& reporter) {
+  const auto entries = read_entries(node, false, names, reporter);
+  if (!entries) return std::nullopt;
+  Situation situation;
+  for (const SituationEntry& entry : *entries) {
+    if (entry.part.is_variable) {
+      situation.variables.push_back({entry.part.place, entry.values.front()});
+    } else {
+      situation.availability.push_back({entry.part.place, entry.available});
+    }
+  }
+  return situation;
+}
+
+std::optional<std::vector<SituationEntry>> read_possible_situation(const yaml::Node& node,
+                                                                   NameIndex& names,
+                                                                   Reporter& reporter) {
+  return read_entries(node, true, names, reporter);
 }
 
 }  // namespace cbc

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "core/catalog/name_place.h"
@@ -71,9 +72,32 @@ template <typename Enum>
   return place ? std::optional(static_cast<Enum>(*place)) : std::nullopt;
 }
 
+/// Finds names that are listed twice.
+class ListedNames {
+ public:
+  /// Returns whether `place`, which `node` names, is new in the list; reports it if it is not.
+  bool add(std::uint32_t place, const yaml::Node& node, Reporter& reporter);
+
+ private:
+  std::unordered_map<std::uint32_t, Range> first_;
+};
+
 /// Reads a mapping of behaviors to booleans, and of situation variables to their values. Empty,
 /// after a finding, unless all of it is understood.
 [[nodiscard]] std::optional<Situation> read_situation(const yaml::Node& node, NameIndex& names,
                                                       Reporter& reporter);
+
+/// What a condition says of a situation: the values that a variable may have, or whether a behavior
+/// is available.
+struct SituationEntry {
+  NameIndex::Part part;
+  std::vector<std::uint32_t> values;  ///< of a variable: at least one, distinct
+  bool available = true;              ///< of a behavior
+  Range range;                        ///< of its name
+};
+
+/// The same mapping, but a variable may have a list of values.
+[[nodiscard]] std::optional<std::vector<SituationEntry>> read_possible_situation(
+    const yaml::Node& node, NameIndex& names, Reporter& reporter);
 
 }  // namespace cbc

@@ -77,13 +77,16 @@ void add_names(std::string& text, std::string_view label, const CompiledCatalog&
 void check_running(const Expectation::Running& expected, const CompiledCatalog& catalog,
                    const State& state, std::vector<std::string>& mismatches) {
   const TaskId task = catalog.task_ids[expected.task];
-  const bool holds = expected.behavior
-                         ? state.behavior(task) == catalog.behavior_ids[*expected.behavior]
-                         : state.is_running(task);
+  const auto& behaviors = expected.behaviors;
+  const bool holds = behaviors.empty()
+                         ? state.is_running(task)
+                         : std::any_of(behaviors.begin(), behaviors.end(), [&](std::uint32_t one) {
+                             return state.behavior(task) == catalog.behavior_ids[one];
+                           });
   if (holds) return;
-  const std::string wanted =
-      expected.behavior ? fmt::format(" with {}", quote(catalog.behavior_names[*expected.behavior]))
-                        : "";
+  std::vector<std::string> names;
+  for (const std::uint32_t one : behaviors) names.push_back(quote(catalog.behavior_names[one]));
+  const std::string wanted = names.empty() ? "" : " with " + list_with_or(names);
   mismatches.push_back(fmt::format("expected task {} to run{}, but {}",
                                    quote(catalog.task_names[expected.task]), wanted,
                                    how_it_runs(catalog, state, task)));

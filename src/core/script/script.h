@@ -35,7 +35,7 @@ struct Parameters {
 struct Expectation {
   struct Running {
     std::uint32_t task = 0;
-    std::optional<std::uint32_t> behavior;  ///< empty: any
+    std::vector<std::uint32_t> behaviors;  ///< it runs with one of these; empty: any
   };
   std::optional<Outcome> outcome;  ///< of the last scripted start, stop or finish
   std::vector<Running> running;

@@ -38,7 +38,12 @@ std::string expectation_entry(const CompiledCatalog& catalog, const Expectation&
     parts.push_back(fmt::format("outcome: {}", name_of(*expectation.outcome)));
   if (!expectation.running.empty()) {
     const auto entry = [&](const Expectation::Running& running) {
-      return task(running.task) + ": " + (running.behavior ? behavior(*running.behavior) : "any");
+      const auto& behaviors = running.behaviors;
+      const std::string value = behaviors.empty() ? "any"
+                                : behaviors.size() == 1
+                                    ? behavior(behaviors.front())
+                                    : "[" + join(behaviors, ", ", behavior) + "]";
+      return task(running.task) + ": " + value;
     };
     parts.push_back("running: {" + join(expectation.running, ", ", entry) + "}");
   }

@@ -445,10 +445,20 @@ void Fields::report_unknown(UnknownKeys treatment) {
     } else if (!suggestion.empty()) {
       message += did_you_mean(suggestion);
       standing.severity = Severity::error;
+    } else if (shape_.tells_keys) {
+      message += "; there are " + list_keys(shape_);
     }
     if (treatment == UnknownKeys::refused) standing = {Severity::error, true};
     reporter_.report_as(standing, rule::unknown_key, field.key->range, std::move(message));
   }
+}
+
+std::string list_keys(const Shape& shape) {
+  std::vector<std::string> keys;
+  for (const Key& key : shape.keys) {
+    if (key.replaced_by.empty()) keys.push_back(quote(key.name));
+  }
+  return list_with_and(keys);
 }
 
 ChosenKey choose_key(const Fields& fields, std::span<const std::string_view> keys,

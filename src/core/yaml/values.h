@@ -46,9 +46,13 @@ struct Shape {
   std::span<const Shape* const> inner = {};  ///< mappings that stand in this one
   bool is_entry = false;                     ///< it stands in a list
   std::span<const Hint> hints = {};
+  bool tells_keys = false;  ///< what is said of an unknown key ends with the known ones
 
   [[nodiscard]] bool has(std::string_view key) const;
 };
+
+/// "'start', 'stop' and 'faults'"
+[[nodiscard]] std::string list_keys(const Shape& shape);
 
 /// What becomes of keys that a mapping must not have.
 enum class UnknownKeys : std::uint8_t {

@@ -234,7 +234,7 @@ Expectation expect(const CompiledCatalog& catalog, GroupId group,
     const bool is_changed = before[place] != behavior || expected[place] != behavior;
     const std::uint32_t task = catalog.tasks[first + place].catalog_index;
     if (behavior != none && (is_changed || tells_all)) {
-      expectation.running.push_back({task, catalog.behaviors[behavior].catalog_index});
+      expectation.running.push_back({task, {catalog.behaviors[behavior].catalog_index}});
     } else if (behavior == none && is_changed) {
       expectation.stopped.push_back(task);
     }

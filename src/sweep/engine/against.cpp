@@ -205,7 +205,7 @@ Expectation SequenceComparison::expectation_of(std::uint32_t part, const State& 
       continue;
     }
     const BehaviorId behavior = new_state.behavior(task.of_new);
-    expectation.running.push_back({place, catalog.behaviors[behavior].catalog_index});
+    expectation.running.push_back({place, {catalog.behaviors[behavior].catalog_index}});
   }
   return expectation;
 }

@@ -21,6 +21,7 @@
 #include "core/support/system.h"
 #include "runtime/base/text.h"
 #include "verify/engine/state_space.h"
+#include "verify/engine/state_test.h"
 #include "verify/engine/stepper.h"
 
 namespace cbc {
@@ -187,14 +188,14 @@ void add_groups(const CompiledCatalog& catalog, const StateCondition& condition,
   for (const BehaviorId behavior : condition.active) add_behavior(behavior);
   for (const BehaviorId behavior : condition.faulty) add_behavior(behavior);
   for (const BehaviorId behavior : condition.available) add_behavior(behavior);
-  for (const auto& own : condition.situation.behaviors) add_behavior(own.behavior);
+  for (const auto& own : condition.own) add_behavior(own.behavior);
 }
 
 void add_groups_of_variables(const CompiledCatalog& catalog, const StateCondition& condition,
                              std::set<GroupId>& groups) {
-  for (const VariableValue& value : condition.situation.variables) {
+  for (const StateCondition::Situated& situated : condition.variables) {
     for (const FittingValue& fitting : catalog.fitting_values) {
-      if (fitting.variable == value.variable) groups.insert(catalog.group_of(fitting.behavior));
+      if (fitting.variable == situated.variable) groups.insert(catalog.group_of(fitting.behavior));
     }
   }
 }
@@ -308,14 +309,20 @@ bool Verification::is_complete() const {
 }
 
 PropertyScope scope_of(const CompiledCatalog& catalog, const Property& property) {
+  const std::vector<const StateCondition*> conditions = conditions_of(property);
   std::set<GroupId> groups;
   if (property.task != none) groups.insert(catalog.tasks[property.task].group);
-  const std::vector<const StateCondition*> conditions = conditions_of(property);
   for (const StateCondition* condition : conditions) add_groups(catalog, *condition, groups);
   if (groups.empty()) {
     for (const StateCondition* condition : conditions) {
       add_groups_of_variables(catalog, *condition, groups);
     }
+  }
+  const bool is_about_faults =
+      std::any_of(conditions.begin(), conditions.end(),
+                  [](const StateCondition* condition) { return condition->none_faulty; });
+  if (groups.empty() && is_about_faults) {
+    for (GroupId group(0); group < catalog.group_count(); ++group) groups.insert(group);
   }
   std::set<std::uint32_t> variables = variables_of(property);
   for (const FittingValue& fitting : catalog.fitting_values) {

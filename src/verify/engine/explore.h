@@ -111,7 +111,7 @@ struct Verification {
 /// What a property is about. Properties of one scope are answered by the same exploration.
 struct PropertyScope {
   /// Ascending: those of its tasks and behaviors; if there are none, those whose behaviors name its
-  /// variables.
+  /// variables; if there are none either, and it is about faults of any behavior, all.
   std::vector<GroupId> groups;
   /// The variables that it names, but no behavior of these groups does.
   std::set<std::uint32_t> variables;

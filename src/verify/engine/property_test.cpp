@@ -23,8 +23,8 @@ using Set = Environments::Set;
 PropertyTest::PropertyTest(const Property& property, const Model& model, StatePart& part)
     : property_(property), model_(model), part_(part) {
   if (!property.when) return;
-  when_.emplace(model, part.environments(), *property.when);
-  part.keep({0, when_->in_environment()});
+  when_.emplace(model, *property.when, part.environments());
+  part.keep(*when_);
 }
 
 void PropertyTest::visit(const States& states, std::uint32_t /*depth*/) {
@@ -40,7 +40,7 @@ void PropertyTest::on_outcome(std::uint32_t /*action*/, const States& /*states*/
 Set PropertyTest::counted(const States& states) {
   if (property_.settled && !control().is_settled()) return Diagrams::empty;
   Set set = states.environments;
-  if (when_) set = sets().both(set, when_->holds_in(control()));
+  if (when_) set = sets().both(set, when_->holds_in(control(), sets()));
   if (property_.after) set = sets().both(set, part_.environments().marked());
   return set;
 }
@@ -70,13 +70,13 @@ class ConditionTest final : public PropertyTest {
  public:
   ConditionTest(const Property& property, const Model& model, StatePart& part)
       : PropertyTest(property, model, part),
-        condition_(model, part.environments(), property.condition) {
-    part.keep({0, condition_.in_environment()});
+        condition_(model, property.condition, part.environments()) {
+    part.keep(condition_);
   }
 
   void visit(const States& states, std::uint32_t depth) override {
     PropertyTest::visit(states, depth);
-    const Set holds = condition_.holds_in(control());
+    const Set holds = condition_.holds_in(control(), sets());
     const Set all = counted(states);
     const bool is_always = property_.kind == Kind::always;
     note({states.control, is_always ? sets().without(all, holds) : sets().both(all, holds)}, depth);
@@ -158,8 +158,8 @@ class PossibilityTest final : public PropertyTest {
  public:
   PossibilityTest(const Property& property, const Model& model, StatePart& part)
       : PropertyTest(property, model, part),
-        condition_(model, part.environments(), property.condition) {
-    part.keep({0, condition_.in_environment()});
+        condition_(model, property.condition, part.environments()) {
+    part.keep(condition_);
   }
 
   [[nodiscard]] Layer goals() override {
@@ -167,7 +167,7 @@ class PossibilityTest final : public PropertyTest {
     for (Controls::Number number = 0; number < part_.controls().size(); ++number) {
       if (!part_.is_own(number) || part_.visited(number) == Diagrams::empty) continue;
       part_.controls().load(number);
-      const Set set = sets().both(part_.visited(number), condition_.holds_in(control()));
+      const Set set = sets().both(part_.visited(number), condition_.holds_in(control(), sets()));
       if (set != Diagrams::empty) goals.push_back({number, set});
     }
     return goals;

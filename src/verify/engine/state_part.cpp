@@ -32,11 +32,11 @@ StatePart::StatePart(const Model& model, const Stepper::Options& options,
       environments_(model, mark.has_value()),
       controls_(model, environments_, options) {
   if (!mark) return;
-  mark_after_.emplace(model, environments_, mark->after);
-  keep({0, mark_after_->in_environment()});
+  mark_after_.emplace(model, mark->after, environments_);
+  keep(*mark_after_);
   if (!mark->until) return;
-  mark_until_.emplace(model, environments_, *mark->until);
-  keep({0, mark_until_->in_environment()});
+  mark_until_.emplace(model, *mark->until, environments_);
+  keep(*mark_until_);
 }
 
 void StatePart::begin() {
@@ -53,7 +53,8 @@ std::uint64_t StatePart::bytes() const {
 
 std::uint64_t StatePart::count_controls() const {
   std::uint64_t count = 0;
-  for (Number control = 0; control < controls_.size(); ++control) count += is_own(control) ? 1U : 0U;
+  for (Number control = 0; control < controls_.size(); ++control)
+    count += is_own(control) ? 1U : 0U;
   return count;
 }
 
@@ -155,7 +156,7 @@ void StatePart::collect() {
     for (const Layer& layer : layers_) {
       for (const States& states : layer) keep(states.environments);
     }
-    for (const States& states : kept_) keep(states.environments);
+    for (const Set set : kept_) keep(set);
   });
 }
 
@@ -202,8 +203,8 @@ std::vector<Number> StatePart::controls_before(const Layer& layer) {
 
 StatePart::MarkSets StatePart::find_marks(const Stepper& control) {
   MarkSets marks;
-  if (mark_until_) marks.to_clear = mark_until_->holds_in(control);
-  marks.to_set = mark_after_->holds_in(control);
+  if (mark_until_) marks.to_clear = mark_until_->holds_in(control, environments_.sets());
+  marks.to_set = mark_after_->holds_in(control, environments_.sets());
   marks.to_set = environments_.sets().without(marks.to_set, marks.to_clear);
   return marks;
 }

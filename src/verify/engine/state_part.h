@@ -41,7 +41,10 @@ class StatePart {
   [[nodiscard]] Environments& environments() { return environments_; }
   [[nodiscard]] Controls& controls() { return controls_; }
   /// Keeps sets from being forgotten while states are visited.
-  void keep(const States& states) { kept_.push_back(states); }
+  void keep(const States& states) { kept_.push_back(states.environments); }
+  void keep(const StateTest& test) {
+    test.for_each_kept([this](Set set) { kept_.push_back(set); });
+  }
 
   // Visiting states.
 
@@ -119,7 +122,7 @@ class StatePart {
   std::vector<Set> visited_;               ///< by control; of other parts: what they were told of
   std::vector<Set> next_;                  ///< by control: of the next layer
   std::vector<Controls::Number> touched_;  ///< controls with some
-  std::vector<States> kept_;
+  std::vector<Set> kept_;
   /// By control: its own ones that have a move to it; found when it is first asked.
   std::vector<std::vector<Controls::Number>> predecessors_;
   std::uint64_t transitions_ = 0;

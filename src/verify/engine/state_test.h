@@ -4,22 +4,34 @@
 #include <vector>
 
 #include "core/property/properties.h"
+#include "verify/engine/diagrams.h"
 #include "verify/engine/environments.h"
 #include "verify/engine/model.h"
 #include "verify/engine/stepper.h"
 
 namespace cbc {
 
-/// A condition on the states of a model.
+/// A condition on the states of a model: asked for one control, it answers in which environments it
+/// holds.
 class StateTest {
  public:
   using Set = Environments::Set;
 
-  StateTest(const Model& model, Environments& environments, const StateCondition& condition);
+  /// The condition is about tasks, behaviors and variables of the model only.
+  StateTest(const Model& model, const StateCondition& condition, Environments& environments);
 
-  /// The environments in which it holds, with the control that the stepper has loaded.
-  [[nodiscard]] Set holds_in(const Stepper& control) const;
-  [[nodiscard]] Set in_environment() const { return in_environment_; }
+  /// Calls `keep` with each set that must survive Diagrams::collect().
+  template <typename Keep>
+  void for_each_kept(Keep&& keep) const {
+    keep(in_environment_);
+    for (const auto* parts : {&negated_, &any_, &all_}) {
+      for (const StateTest& part : *parts) part.for_each_kept(keep);
+    }
+  }
+
+  /// The environments in which it holds, with the control that the stepper has loaded; among them
+  /// may be some that no state has. The set is not kept.
+  [[nodiscard]] Set holds_in(const Stepper& control, Diagrams& sets) const;
 
  private:
   struct Part {
@@ -34,14 +46,17 @@ class StateTest {
   void add(bool (*test)(const Stepper&, Part), std::uint32_t subject, std::uint32_t wanted = 0) {
     tests_.push_back({test, {subject, wanted}});
   }
-  void add(Set environments) {
-    in_environment_ = environments_.sets().both(in_environment_, environments);
-  }
+  void add_running(const Model& model, const StateCondition::Running& running);
   void add_others(const Model& model, const std::vector<BehaviorId>& listed);
+  void add_environments(const Model& model, const StateCondition& condition,
+                        Environments& environments);
 
-  Environments& environments_;
-  std::vector<Test> tests_;  ///< of the control
-  Set in_environment_ = Diagrams::all;
+  std::vector<Test> tests_;                         ///< of the control: all of them hold
+  std::vector<std::vector<std::uint32_t>> values_;  ///< of the control: it has one of each list
+  Set in_environment_ = Diagrams::all;              ///< parts of the environment
+  std::vector<StateTest> negated_;
+  std::vector<StateTest> any_;
+  std::vector<StateTest> all_;
 };
 
 }  // namespace cbc

@@ -149,13 +149,15 @@ void add_all_tasks(const Model& model, std::set<TaskId>& tasks) {
 /// The tasks that a condition is about.
 void add_tasks(const Model& model, const StateCondition& condition, std::set<TaskId>& tasks) {
   const CompiledCatalog& catalog = model.catalog();
-  if (condition.only_active) add_all_tasks(model, tasks);
-  for (const auto& running : condition.running) tasks.insert(running.task);
-  for (const TaskId task : condition.stopped) tasks.insert(task);
-  for (const auto& requested : condition.requested) tasks.insert(requested.task);
-  for (const BehaviorId behavior : condition.active) {
-    for (const ValueId value : catalog.performs[behavior]) tasks.insert(catalog.task_of(value));
-  }
+  for_each_condition(condition, [&](const StateCondition& part) {
+    if (part.only_active) add_all_tasks(model, tasks);
+    for (const auto& running : part.running) tasks.insert(running.task);
+    for (const TaskId task : part.stopped) tasks.insert(task);
+    for (const auto& requested : part.requested) tasks.insert(requested.task);
+    for (const BehaviorId behavior : part.active) {
+      for (const ValueId value : catalog.performs[behavior]) tasks.insert(catalog.task_of(value));
+    }
+  });
 }
 
 /// What holds in the state that the stepper has loaded, as far as the property is about it.
@@ -170,8 +172,8 @@ Expectation expectation_of(const Model& model, const Stepper& stepper, const Pro
     about.insert(property->task);
   } else {
     add_tasks(model, property->condition, about);
-    if (property->when) add_tasks(model, *property->when, about);
   }
+  if (property != nullptr && property->when) add_tasks(model, *property->when, about);
   for (const std::uint32_t task : model.tasks_in_order()) {
     const TaskId id = model.tasks()[task].id;
     if (!about.contains(id)) continue;
@@ -182,7 +184,7 @@ Expectation expectation_of(const Model& model, const Stepper& stepper, const Pro
       continue;
     }
     const BehaviorId behavior = catalog.values[id][cell - 1].behavior;
-    expectation.running.push_back({index, catalog.behaviors[behavior].catalog_index});
+    expectation.running.push_back({index, {catalog.behaviors[behavior].catalog_index}});
   }
   return expectation;
 }

@@ -30,16 +30,24 @@
 namespace cbc {
 namespace {
 
-/// What a property demands of the last state, as far as an expectation can say it.
+/// What a condition demands to run, as far as an expectation can say it.
+void add_demand(const CompiledCatalog& catalog, const StateCondition& condition,
+                Expectation& demand) {
+  for (const auto& [task, behaviors] : condition.running) {
+    auto& running = demand.running.emplace_back();
+    running.task = catalog.tasks[task].catalog_index;
+    for (const BehaviorId behavior : behaviors) {
+      running.behaviors.push_back(catalog.behaviors[behavior].catalog_index);
+    }
+  }
+  for (const StateCondition& part : condition.all) add_demand(catalog, part, demand);
+}
+
+/// What a property demands of the last state.
 Expectation demand_of(const CompiledCatalog& catalog, const Property& property) {
   Expectation demand;
   if (property.kind == Property::Kind::can_start) demand.outcome = Outcome::accepted;
-  if (property.kind != Property::Kind::always) return demand;
-  for (const auto& [task, behavior] : property.condition.running) {
-    auto& running = demand.running.emplace_back();
-    running.task = catalog.tasks[task].catalog_index;
-    if (behavior != none) running.behavior = catalog.behaviors[behavior].catalog_index;
-  }
+  if (property.kind == Property::Kind::always) add_demand(catalog, property.condition, demand);
   return demand;
 }
 

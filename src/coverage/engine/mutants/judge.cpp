@@ -137,7 +137,7 @@ Expectation find_difference(const CompiledCatalog& original, const Observation& 
     if (behavior.empty()) {
       expectation.stopped.push_back(task);
     } else {
-      expectation.running.push_back({task, original.find_behavior(behavior)});
+      expectation.running.push_back({task, {original.find_behavior(behavior).value()}});
     }
   }
   if (of_original.outcome != of_mutant.outcome) expectation.outcome = of_original.outcome;
@@ -344,7 +344,7 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
     Property property;
     property.kind = Property::Kind::reachable;
     property.condition.running = {
-        {catalog_.task_ids[difference.task], catalog_.behavior_ids[difference.behavior]}};
+        {catalog_.task_ids[difference.task], {catalog_.behavior_ids[difference.behavior]}}};
     // Alone it is not hidden by others that time out before.
     Property& alone = properties.emplace_back(property);
     for (const TaskIndex task : find_sooner(source_, catalog_, difference)) {
