@@ -203,7 +203,7 @@ void PlainModel::add_starts(const Snapshot& state, std::vector<Move>& moves) con
   for (const TaskId task : tasks_) {
     const Snapshot::RunningTask* const entry = find_running(state, task);
     if (!contains(assumptions_.stop, task) || entry == nullptr) continue;
-    if (!entry->request || entry->request->priority < 1) continue;
+    if (!entry->request) continue;
     moves.push_back({Move::Kind::stop, catalog_.tasks[task].catalog_index, 0});
   }
 }

@@ -160,8 +160,7 @@ bool Stepper::may_have_move(const Model::Choice& choice) const {
     case Move::Kind::start:
       return true;
     case Move::Kind::stop:
-      // Rank 0 is that of reactive starts.
-      return before_.cells[subject] != 0 && request_of(subject) > 1;
+      return before_.cells[subject] != 0 && request_of(subject) > 0;
     case Move::Kind::success: {
       if (!is_active) return false;
       const auto& values = model_.behaviors()[subject].values;
