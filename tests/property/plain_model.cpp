@@ -146,8 +146,15 @@ PlainModel::PlainModel(const CompiledCatalog& catalog, std::vector<GroupId> grou
       if (!contains(variables_, fitting.variable)) variables_.push_back(fitting.variable);
     }
   }
+  while (add_tied()) {
+  }
   std::sort(variables_.begin(), variables_.end());
-  const auto is_fixed = [&](const SituationPart& part) {
+  const auto index_of = [&](BehaviorId behavior) {
+    return catalog.behaviors[behavior].catalog_index;
+  };
+  std::sort(own_.begin(), own_.end(),
+            [&](BehaviorId a, BehaviorId b) { return index_of(a) < index_of(b); });
+  const auto is_known = [&](const SituationPart& part) {
     return std::all_of(part.variables.begin(), part.variables.end(),
                        [&](const VariableValue& entry) {
                          return contains(variables_, entry.variable) ||
@@ -155,12 +162,37 @@ PlainModel::PlainModel(const CompiledCatalog& catalog, std::vector<GroupId> grou
                        }) &&
            std::all_of(part.behaviors.begin(), part.behaviors.end(),
                        [&](const SituationPart::Own& entry) {
-                         return contains(behaviors_, entry.behavior) ||
+                         return contains(own_, entry.behavior) ||
                                 !contains(assumptions.behaviors, entry.behavior);
                        });
   };
   std::copy_if(assumptions.never.begin(), assumptions.never.end(), std::back_inserter(never_),
-               is_fixed);
+               is_known);
+}
+
+/// Adds what an entry of `never` names together with something in the state. False: nothing is new.
+bool PlainModel::add_tied() {
+  const std::size_t before = variables_.size() + own_.size();
+  for (const SituationPart& part : assumptions_.never) {
+    const bool is_about_state =
+        std::any_of(
+            part.variables.begin(), part.variables.end(),
+            [&](const VariableValue& entry) { return contains(variables_, entry.variable); }) ||
+        std::any_of(
+            part.behaviors.begin(), part.behaviors.end(),
+            [&](const SituationPart::Own& entry) { return contains(own_, entry.behavior); });
+    if (!is_about_state) continue;
+    for (const VariableValue& entry : part.variables) {
+      if (!contains(variables_, entry.variable)) variables_.push_back(entry.variable);
+    }
+    for (const SituationPart::Own& entry : part.behaviors) {
+      if (contains(own_, entry.behavior) || !contains(assumptions_.behaviors, entry.behavior)) {
+        continue;
+      }
+      own_.push_back(entry.behavior);
+    }
+  }
+  return variables_.size() + own_.size() > before;
 }
 
 bool PlainModel::has_group(GroupId group) const { return contains(groups_, group); }

@@ -69,11 +69,12 @@ class PlainModel {
   /// Those of the groups, in catalog order.
   [[nodiscard]] const std::vector<TaskId>& tasks() const { return tasks_; }
   [[nodiscard]] const std::vector<BehaviorId>& behaviors() const { return behaviors_; }
-  /// Those that behaviors of the groups name, in catalog order.
+  /// Those of the state, in catalog order.
   [[nodiscard]] const std::vector<std::uint32_t>& variables() const { return variables_; }
 
  private:
   [[nodiscard]] bool has_group(GroupId group) const;
+  bool add_tied();
   void add_starts(const Snapshot& state, std::vector<Move>& moves) const;
   void add_finishes(const Snapshot& state, std::vector<Move>& moves) const;
   void add_faults(const Snapshot& state, std::vector<Move>& moves) const;
@@ -85,8 +86,8 @@ class PlainModel {
   std::vector<TaskId> tasks_;
   std::vector<BehaviorId> behaviors_;
   std::vector<std::uint32_t> variables_;
-  std::vector<BehaviorId> own_;       ///< those of the groups whose own(b) may change
-  std::vector<SituationPart> never_;  ///< without those that exclude nothing
+  std::vector<BehaviorId> own_;       ///< those whose own(b) is part of the state
+  std::vector<SituationPart> never_;  ///< without those about what is not part of it
 };
 
 /// The entry of a task that runs, or null.

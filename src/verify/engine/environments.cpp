@@ -142,7 +142,7 @@ void Environments::add_effects() {
                    values_of(move.subject, move.choice));
         break;
       case Move::Kind::own: {
-        const std::uint32_t bit = first_own_ + model_.behaviors()[move.subject].own;
+        const std::uint32_t bit = first_own_ + move.subject;
         for (const bool is_denied : {false, true}) {
           add_effect(choice, sets_.with(bit, !is_denied), {{{bit, is_denied}}});
         }

@@ -30,12 +30,14 @@ Model::Model(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
     : catalog_(catalog), assumptions_(assumptions) {
   add_groups(groups);
   rank_priorities();
-  if (!add_variables(variables) || !fits_into_cells()) {
+  const StateSituation situation = situation_of_states(catalog, groups, assumptions, variables);
+  if (!add_variables(situation) || !fits_into_cells()) {
     is_too_large_ = true;
     return;
   }
   add_rivals();
   find_interactions();
+  add_own_flags(situation);
   lay_out();
   add_never();
   add_moves();
@@ -204,21 +206,15 @@ void Model::find_interactions() {
 }
 
 /// False if the table of the behaviors that do not fit is too large.
-bool Model::add_variables(const std::set<std::uint32_t>& watched) {
+bool Model::add_variables(const StateSituation& situation) {
   denied_.assign(words_for(behaviors_.size()), 0);
   for (std::uint32_t place = 0; place < behaviors_.size(); ++place) {
     if (!is_available_at_first(assumptions_, behaviors_[place].id)) set_bit(denied_.data(), place);
   }
-  std::set<std::uint32_t> named = watched;
-  for (const Behavior& behavior : behaviors_) {
-    for (const FittingValue& fitting : catalog_.fitting_values_of(behavior.id)) {
-      named.insert(fitting.variable);
-    }
-  }
   std::size_t values = 0;
-  for (const std::uint32_t id : named) values += catalog_.variables[id].value_count;
+  for (const std::uint32_t id : situation.variables) values += catalog_.variables[id].value_count;
   if (values * denied_.size() > most_misfit_words) return false;
-  for (const std::uint32_t id : named) {
+  for (const std::uint32_t id : situation.variables) {
     Variable& variable = variables_.emplace_back();
     variable.id = id;
     variable.values = catalog_.variables[id].value_count;
@@ -237,6 +233,17 @@ bool Model::add_variables(const std::set<std::uint32_t>& watched) {
     }
   }
   return true;
+}
+
+/// Those of the groups first, in the order of behaviors.
+void Model::add_own_flags(const StateSituation& situation) {
+  std::set<BehaviorId> left = situation.behaviors;
+  for (std::uint32_t place = 0; place < behaviors_.size(); ++place) {
+    if (left.erase(behaviors_[place].id) == 0) continue;
+    behaviors_[place].own = static_cast<std::uint32_t>(own_flags_.size());
+    own_flags_.push_back({behaviors_[place].id, place});
+  }
+  for (const BehaviorId behavior : left) own_flags_.push_back({behavior, none});
 }
 
 void Model::rank_priorities() {
@@ -345,13 +352,8 @@ void Model::lay_out() {
     add(variable.values - 1);
   }
   layout_.own = here();
-  const std::vector<bool> may_own_change =
-      members_of(assumptions_.behaviors, catalog_.behaviors.size());
-  for (Behavior& behavior : behaviors_) {
-    if (!may_own_change[behavior.id]) continue;
-    behavior.own = layout_.own_count++;
-    add(1);
-  }
+  layout_.own_count = static_cast<std::uint32_t>(own_flags_.size());
+  for (std::uint32_t flag = 0; flag < layout_.own_count; ++flag) add(1);
   layout_.faulty = here();
   if (assumptions_.faults > 0) {
     layout_.faulty_count = static_cast<std::uint32_t>(behaviors_.size());
@@ -361,12 +363,20 @@ void Model::lay_out() {
   packed_words_ = std::max<std::size_t>(1, (bits + 31) / 32);
 }
 
-/// Entries of `never` as conditions on cells. What cannot change is compared once.
+/// Entries of `never` as conditions on cells. What cannot change is compared once. Of an entry all
+/// that may change is part of the state, or nothing; then it is about other states.
 void Model::add_never() {
+  if (assumptions_.never.empty()) return;
   const std::vector<bool> may_change =
       members_of(assumptions_.variables, catalog_.variables.size());
   const std::vector<bool> may_own_change =
       members_of(assumptions_.behaviors, catalog_.behaviors.size());
+  const auto find_flag = [&](BehaviorId behavior) {
+    const auto found = std::find_if(own_flags_.begin(), own_flags_.end(),
+                                    [&](const OwnFlag& flag) { return flag.id == behavior; });
+    return found == own_flags_.end() ? none
+                                     : static_cast<std::uint32_t>(found - own_flags_.begin());
+  };
   for (const SituationPart& part : assumptions_.never) {
     Excluded excluded;
     bool occurs = true;
@@ -376,7 +386,7 @@ void Model::add_never() {
         continue;
       }
       const std::uint32_t place = find_variable(value.variable);
-      occurs = occurs && place != none;  // otherwise it is not part of the state
+      occurs = occurs && place != none;
       if (occurs) excluded.emplace_back(variables_[place].cell, value.value);
     }
     for (const SituationPart::Own& own : part.behaviors) {
@@ -384,9 +394,9 @@ void Model::add_never() {
         occurs = occurs && is_available_at_first(assumptions_, own.behavior) == own.available;
         continue;
       }
-      const std::uint32_t place = find_behavior(own.behavior);
-      occurs = occurs && place != none;
-      if (occurs) excluded.emplace_back(layout_.own + behaviors_[place].own, own.available ? 0 : 1);
+      const std::uint32_t flag = find_flag(own.behavior);
+      occurs = occurs && flag != none;
+      if (occurs) excluded.emplace_back(layout_.own + flag, own.available ? 0 : 1);
     }
     if (occurs) excluded_.push_back(std::move(excluded));
   }
@@ -441,10 +451,14 @@ void Model::add_moves() {
            value});
     }
   }
-  for (const std::uint32_t behavior : behaviors_in_order_) {
-    if (behaviors_[behavior].own == none) continue;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> flags;
+  for (std::uint32_t flag = 0; flag < own_flags_.size(); ++flag) {
+    flags.emplace_back(catalog_.behaviors[own_flags_[flag].id].catalog_index, flag);
+  }
+  std::sort(flags.begin(), flags.end());
+  for (const auto& [index, flag] : flags) {
     // Which of the two it becomes is filled in where the move is taken.
-    moves_.push_back({{Move::Kind::own, index_of_behavior(behavior), 0}, behavior, 0});
+    moves_.push_back({{Move::Kind::own, index, 0}, flag, 0});
   }
   if (!reactive_.empty()) moves_.push_back({{Move::Kind::due, 0, 0}, 0, 0});
 }
@@ -457,11 +471,9 @@ std::vector<std::uint16_t> Model::first_state() const {
   for (const Variable& variable : variables_) {
     if (variable.cell != none) cells[variable.cell] = static_cast<std::uint16_t>(variable.initial);
   }
-  for (std::uint32_t place = 0; place < behaviors_.size(); ++place) {
-    const Behavior& behavior = behaviors_[place];
-    if (behavior.own != none && has_bit(denied_.data(), place)) {
-      cells[layout_.own + behavior.own] = 1;
-    }
+  for (std::uint32_t flag = 0; flag < layout_.own_count; ++flag) {
+    const bool is_available = is_available_at_first(assumptions_, own_flags_[flag].id);
+    cells[layout_.own + flag] = is_available ? 0 : 1;
   }
   return cells;
 }

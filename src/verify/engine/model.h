@@ -12,6 +12,7 @@
 
 #include "core/property/properties.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "verify/engine/state_situation.h"
 
 namespace cbc {
 
@@ -102,7 +103,13 @@ class Model {
     BehaviorId id;
     std::uint32_t group = 0;  ///< place in groups()
     std::vector<std::uint32_t> values;
-    std::uint32_t own = none;  ///< its number among those whose own(b) may change
+    std::uint32_t own = none;  ///< its number among the own flags
+  };
+  /// A behavior whose own(b) is part of the state, as it may change: one of the groups, or another
+  /// one that `never` ties to something in the state.
+  struct OwnFlag {
+    BehaviorId id;
+    std::uint32_t behavior = none;  ///< as the model counts; none: it is of another group
   };
   struct Variable {
     std::uint32_t id = 0;  ///< place in the catalog
@@ -114,7 +121,7 @@ class Model {
   };
   struct Choice {
     Move move;
-    std::uint32_t subject = 0;  ///< the task, behavior or variable as the model counts them
+    std::uint32_t subject = 0;  ///< task, behavior, variable or own flag as the model counts them
     std::uint32_t choice = 0;   ///< of start: the rank; of variable: the value
   };
 
@@ -143,7 +150,8 @@ class Model {
   };
 
   /// `groups` are ascending. `variables` are part of the state even if no behavior of the groups
-  /// names them. The catalog and the assumptions must outlive the model.
+  /// names them, and so is what `never` ties to the state (situation_of_states). The catalog and
+  /// the assumptions must outlive the model.
   Model(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
         const Assumptions& assumptions, const std::set<std::uint32_t>& variables = {});
 
@@ -153,6 +161,7 @@ class Model {
   [[nodiscard]] const std::vector<Task>& tasks() const { return tasks_; }
   [[nodiscard]] const std::vector<Behavior>& behaviors() const { return behaviors_; }
   [[nodiscard]] const std::vector<Variable>& variables() const { return variables_; }
+  [[nodiscard]] const std::vector<OwnFlag>& own_flags() const { return own_flags_; }
   /// By value of a task: the task, the behavior.
   [[nodiscard]] std::uint32_t task_of(std::uint32_t value) const { return task_of_[value]; }
   [[nodiscard]] std::uint32_t behavior_of(std::uint32_t value) const { return behavior_of_[value]; }
@@ -206,7 +215,7 @@ class Model {
   /// Why no state can be explored, if so: `never` excludes the first one, or a number is too large
   /// for a cell. Then this model must not be used for anything else.
   [[nodiscard]] std::optional<std::string> find_obstacle() const;
-  /// An entry of `never`, as cells that have values.
+  /// An entry of `never`, as cells that have values; without what is so in every state.
   using Excluded = std::vector<std::pair<std::uint32_t, std::uint16_t>>;
   [[nodiscard]] const std::vector<Excluded>& excluded() const { return excluded_; }
   /// Whether `never` excludes the situation of these cells.
@@ -221,7 +230,8 @@ class Model {
   void add_behaviors(Group& group);
   void add_rivals();
   void find_interactions();
-  [[nodiscard]] bool add_variables(const std::set<std::uint32_t>& watched);
+  [[nodiscard]] bool add_variables(const StateSituation& situation);
+  void add_own_flags(const StateSituation& situation);
   void rank_priorities();
   void lay_out();
   void add_moves();
@@ -234,6 +244,7 @@ class Model {
   std::vector<Task> tasks_;
   std::vector<Behavior> behaviors_;  ///< of each group by level, then BehaviorId
   std::vector<Variable> variables_;
+  std::vector<OwnFlag> own_flags_;
   std::vector<std::uint32_t> task_of_;
   std::vector<std::uint32_t> behavior_of_;
   std::vector<std::uint32_t> reactive_;

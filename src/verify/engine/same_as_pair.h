@@ -46,7 +46,7 @@ struct ModelPair {
   const TranslationPair& translations;
   Model old_model;
   Model new_model;
-  /// The same move in both.
+  /// The same move in both; only one of them may have a queue.
   struct PairedMove {
     const Model::Choice* of_new = nullptr;  ///< null: the new one does not have it
     const Model::Choice* of_old = nullptr;  ///< null: the old one does not have it
@@ -71,7 +71,6 @@ struct ModelPair {
   void add_tasks();
   void add_behaviors();
   void add_moves();
-  void add_variables_of_old();
 };
 
 }  // namespace cbc

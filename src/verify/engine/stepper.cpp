@@ -219,7 +219,7 @@ bool Stepper::take(const Model::Choice& choice) {
       }
       break;
     case Move::Kind::own: {
-      const std::uint32_t cell = layout.own + model_.behaviors()[subject].own;
+      const std::uint32_t cell = layout.own + subject;
       if (!change_situation(cell, now_.cells[cell] == 0 ? 1 : 0)) return false;
       break;
     }
@@ -282,11 +282,9 @@ void Stepper::make(const Model::Choice& choice) {
   if (reduce_) merge_orders();
 }
 
-void Stepper::stay(bool is_situation) {
+void Stepper::stay() {
   now_ = before_;
   joined_set_ = 0;
-  if (is_situation) open_event(Verb::situation, Origin::script, none);
-  close_event();
 }
 
 bool Stepper::would_start(std::uint32_t task, Model::Rank ranks) {

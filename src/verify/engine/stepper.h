@@ -83,7 +83,7 @@ class Stepper {
   /// The move that a choice stands for in the loaded state.
   [[nodiscard]] Move move_of(const Model::Choice& choice) const {
     Move move = choice.move;
-    if (move.kind == Move::Kind::own) move.choice = is_denied(choice.subject) ? 1 : 0;
+    if (move.kind == Move::Kind::own) move.choice = cells()[model_.layout().own + choice.subject];
     return move;
   }
   [[nodiscard]] bool was_accepted() const { return accepted_; }
@@ -109,9 +109,8 @@ class Stepper {
   void take_control(const Model::Choice& choice, const Possible& possible,
                     EnvironmentOracle& environment);
 
-  /// Instead of a move: leaves the state as it is. `is_situation`: by a change of the situation
-  /// that is not about the model.
-  void stay(bool is_situation);
+  /// Instead of a move: leaves the state as it is.
+  void stay();
   /// Whether the reactive task joined the queue in the move.
   [[nodiscard]] bool has_joined(std::uint32_t reactive) const {
     return now_.cells[model_.layout().queue + reactive] == joined_set_ && joined_set_ != 0;

@@ -127,7 +127,8 @@ Schedule find_schedule(const Timeline& timeline, Microseconds pause) {
   }
 }
 
-/// Null for moves of a variable, or of a queue, that only the other of two catalogs has.
+/// Null for what the model does not have: moves of a queue that only the other of two catalogs has,
+/// and of what is not available in other groups.
 std::vector<const Model::Choice*> find_choices(const Model& model, const std::vector<Move>& moves) {
   std::vector<const Model::Choice*> choices;
   for (const Move& move : moves) {
@@ -140,6 +141,15 @@ std::vector<const Model::Choice*> find_choices(const Model& model, const std::ve
     choices.push_back(found != model.moves().end() ? &*found : nullptr);
   }
   return choices;
+}
+
+/// The variables that moves change.
+std::set<std::uint32_t> variables_in(const std::vector<Move>& moves) {
+  std::set<std::uint32_t> variables;
+  for (const Move& move : moves) {
+    if (move.kind == Move::Kind::variable) variables.insert(move.subject);
+  }
+  return variables;
 }
 
 void add_all_tasks(const Model& model, std::set<TaskId>& tasks) {
@@ -251,9 +261,7 @@ Step step_of(const Move& move) {
 Witness make_witness(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
                      const Assumptions& assumptions, const std::vector<Move>& moves,
                      const Property* property, const std::string& comment) {
-  const std::set<std::uint32_t> variables =
-      property == nullptr ? std::set<std::uint32_t>() : variables_of(*property);
-  const Model model(catalog, groups, assumptions, variables);
+  const Model model(catalog, groups, assumptions, variables_in(moves));
   const bool ends_with_start = property != nullptr && property->kind == Property::Kind::can_start;
   std::vector<Move> path = moves;
   if (ends_with_start) path.pop_back();
@@ -292,7 +300,7 @@ Witness make_witness(const CompiledCatalog& catalog, const std::vector<GroupId>&
 Script make_script(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
                    const Assumptions& assumptions, const std::vector<Move>& moves,
                    Microseconds pause) {
-  const Model model(catalog, groups, assumptions);
+  const Model model(catalog, groups, assumptions, variables_in(moves));
   Stepper stepper(model);
   const Schedule schedule =
       find_schedule(follow(model, find_choices(model, moves), stepper), pause);
