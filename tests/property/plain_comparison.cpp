@@ -130,6 +130,10 @@ class Names {
     for (const BehaviorId one : from.behaviors) {
       if (const auto id = behavior(one)) result.behaviors.push_back(*id);
     }
+    result.listed_for_faults.clear();
+    for (const BehaviorId one : from.listed_for_faults) {
+      if (const auto id = behavior(one)) result.listed_for_faults.push_back(*id);
+    }
     result.never.clear();
     for (const SituationPart& entry : from.never) {
       const SituationPart translated = part(entry);

@@ -263,6 +263,8 @@ void PlainModel::add_finishes(const Snapshot& state, std::vector<Move>& moves) c
 void PlainModel::add_faults(const Snapshot& state, std::vector<Move>& moves) const {
   for (const BehaviorId behavior : behaviors_) {
     if (contains(state.faulty, behavior) || state.faulty.size() >= assumptions_.faults) continue;
+    const bool is_listed = contains(assumptions_.listed_for_faults, behavior);
+    if (is_listed != assumptions_.only_listed_fail) continue;
     moves.push_back({Move::Kind::fault, catalog_.behaviors[behavior].catalog_index, 0});
   }
   for (const BehaviorId behavior : behaviors_) {

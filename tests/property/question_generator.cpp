@@ -83,6 +83,12 @@ class QuestionGenerator {
     assumptions.failures = random_.percent(80);
     static const std::vector<std::uint32_t> faults = {0, 0, 0, 1, 1, 2};
     assumptions.faults = random_.pick(faults);
+    if (random_.percent(30)) {
+      assumptions.only_listed_fail = random_.percent(50);
+      assumptions.listed_for_faults.assign(catalog_.behavior_ids.begin(),
+                                           catalog_.behavior_ids.end());
+      keep_some(assumptions.listed_for_faults, 40);
+    }
     keep_some(assumptions.variables, 85);
     if (random_.percent(45)) {
       for (const BehaviorId behavior : catalog_.behavior_ids) {

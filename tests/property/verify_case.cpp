@@ -122,7 +122,11 @@ class Writer {
     for (const TaskId one : assumptions.stop) text += " " + task(one);
     text += assumptions.successes ? "\nsuccesses" : "\nno successes";
     text += assumptions.failures ? ", failures" : ", no failures";
-    text += ", faults " + std::to_string(assumptions.faults) + "\nchange";
+    text += ", faults " + std::to_string(assumptions.faults);
+    if (assumptions.only_listed_fail) text += " only";
+    if (!assumptions.only_listed_fail && !assumptions.listed_for_faults.empty()) text += " but";
+    for (const BehaviorId one : assumptions.listed_for_faults) text += " " + behavior(one);
+    text += "\nchange";
     for (const std::uint32_t variable : assumptions.variables) {
       text += " " + std::string(catalog_.name_of_variable(variable));
     }

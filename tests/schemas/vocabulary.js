@@ -111,6 +111,8 @@ function isOptional(object, name) {
     'best',
     'complete_order',
     'due',
+    'faults_except',
+    'faults_of',
     'in_some_situation',
     'incomplete',
     'parameters',

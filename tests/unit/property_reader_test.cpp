@@ -92,7 +92,13 @@ std::string describe(const Assumptions& assumptions) {
   for (const TaskId task : assumptions.stop) text += " " + name_of_task(task);
   if (!assumptions.successes) text += "; no successes";
   if (!assumptions.failures) text += "; no failures";
-  text += "; faults " + std::to_string(assumptions.faults) + "; changing";
+  text += "; faults " + std::to_string(assumptions.faults);
+  if (assumptions.only_listed_fail) text += " of";
+  if (!assumptions.only_listed_fail && !assumptions.listed_for_faults.empty()) text += " except";
+  for (const BehaviorId behavior : assumptions.listed_for_faults) {
+    text += " " + name_of_behavior(behavior);
+  }
+  text += "; changing";
   for (const std::uint32_t variable : assumptions.variables) {
     text += " " + std::string(catalog().name_of_variable(variable));
   }
@@ -270,6 +276,60 @@ assume:
       findings("{assume: {start: LAND}, properties: []}"),
       "1:18-22 error wrong-type: 'start' must be a list of tasks, a mapping of tasks to lists "
       "of priorities, or 'all', found 'LAND'\n");
+}
+
+TEST(Assumptions, SayWhatCanBecomeFaulty) {
+  constexpr const char* start = "start HOVER 1 TALK 1 LAND 1; stop HOVER TALK LAND; faults ";
+  constexpr const char* end = "; changing SIGNAL LIGHT; initially";
+  EXPECT_EQ(assuming("faults: {most: 2, of: [SLAM, HOVER_MPC]}"),
+            std::string(start) + "2 of HOVER_MPC SLAM" + end);
+  EXPECT_EQ(assuming("faults: {most: 1, except: [GPS], of: ~}"),
+            std::string(start) + "1 except GPS" + end);
+  EXPECT_EQ(assuming("faults: {most: 3}"), std::string(start) + "3" + end);
+
+  const Assumptions of =
+      read("{assume: {faults: {most: 1, of: [GPS]}}, properties: []}").assumptions;
+  const Assumptions except =
+      read("{assume: {faults: {most: 1, except: [GPS]}}, properties: []}").assumptions;
+  const Assumptions no_faults =
+      read("{assume: {faults: {most: 0, of: [GPS]}}, properties: []}").assumptions;
+  for (const BehaviorId behavior : catalog().behavior_ids) {
+    const bool is_gps = catalog().name_of_behavior(behavior) == "GPS";
+    EXPECT_EQ(can_become_faulty(of, behavior), is_gps);
+    EXPECT_EQ(can_become_faulty(except, behavior), !is_gps);
+    EXPECT_FALSE(can_become_faulty(no_faults, behavior));
+    EXPECT_FALSE(can_become_faulty(default_assumptions(catalog()), behavior));
+  }
+}
+
+TEST(Assumptions, ReportMistakesAboutFaults) {
+  const auto findings_of = [](const std::string& faults) {
+    return findings("properties: []\nassume:\n  faults: " + faults);
+  };
+  EXPECT_EQ(findings_of("[GPS]"),
+            "3:11-12 error wrong-type: 'faults' must be a number of behaviors, or a mapping with "
+            "'most', found a list\n");
+  EXPECT_EQ(findings_of("{of: [GPS]}"),
+            "3:11-12 error missing-key: 'faults' needs 'most': how many behaviors may be faulty at "
+            "a time\n");
+  EXPECT_EQ(findings_of("{mst: 1, of: [GPS]}"),
+            "3:12-15 error unknown-key: unknown key 'mst' in a faults; did you mean 'most'?\n");
+  EXPECT_EQ(findings_of("{most: -1, of: GPS}"),
+            "3:18-20 error invalid-value: 'most' must be an integer from 0 to 2147483647, found "
+            "'-1'\n"
+            "3:26-29 error wrong-type: 'of' must be a list of behaviors, found 'GPS'\n");
+  EXPECT_EQ(findings_of("{most: 1, of: []}"),
+            "3:25-26 error invalid-value: expected at least one behavior in 'of', found an empty "
+            "list\n");
+  EXPECT_EQ(findings_of("{most: 1, except: [GPS, LAND, SLM, GPS]}"),
+            "3:35-39 error undefined-behavior: there is no behavior 'LAND': it is a task; did you "
+            "mean 'LAND_PID'?\n"
+            "3:41-44 error undefined-behavior: there is no behavior 'SLM'; did you mean 'SLAM'?\n"
+            "3:46-49 error invalid-value: 'GPS' is listed twice\n"
+            "  3:30-33 first listed here\n");
+  EXPECT_EQ(findings_of("{most: 1, of: [GPS], except: [SLAM]}"),
+            "3:32-38 error invalid-value: 'faults' takes 'of' or 'except', not both\n"
+            "  3:21-23 'of' is here\n");
 }
 
 // Properties -------------------------------------------------------------------------------------

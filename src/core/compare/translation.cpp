@@ -181,6 +181,7 @@ Assumptions translate(const Assumptions& from, const Translation& to) {
   result.stop = translate(from.stop, to.tasks);
   result.variables = translate(from.variables, to.variables);
   result.behaviors = translate(from.behaviors, to.behaviors);
+  result.listed_for_faults = translate(from.listed_for_faults, to.behaviors);
   result.never.clear();
   for (const SituationPart& part : from.never) {
     bool is_whole = true;

@@ -38,7 +38,10 @@ struct Assumptions {
   std::vector<TaskId> stop;  ///< distinct tasks
   bool successes = true;
   bool failures = true;
-  std::uint32_t faults = 0;              ///< the most behaviors that are faulty at a time
+  std::uint32_t faults = 0;  ///< the most behaviors that are faulty at a time
+  /// Only these can become faulty, or all but these; see can_become_faulty().
+  bool only_listed_fail = false;
+  std::vector<BehaviorId> listed_for_faults;
   std::vector<std::uint32_t> variables;  ///< those that may change
   std::vector<BehaviorId> behaviors;     ///< those whose own(b) may change
   std::vector<SituationPart> never;      ///< situations that do not occur
@@ -58,6 +61,8 @@ struct StatedAssumptions {
 /// Of the first state: the value of a situation variable, and own(b) of a behavior.
 [[nodiscard]] std::uint32_t initial_value(const Assumptions& assumptions, std::uint32_t variable);
 [[nodiscard]] bool is_available_at_first(const Assumptions& assumptions, BehaviorId behavior);
+
+[[nodiscard]] bool can_become_faulty(const Assumptions& assumptions, BehaviorId behavior);
 
 /// What a state satisfies: all parts together.
 struct StateCondition {

@@ -42,6 +42,16 @@ inline constexpr auto assumptions = object(
                member("failures", boolean, "Whether behaviors fail.", &Assumptions::failures),
                member("faults", count, "How many behaviors may be faulty at a time.",
                       &Assumptions::faults),
+               optional("faults_of", behaviors, "The only behaviors that can become faulty.",
+                        [](const Assumptions& of) {
+                          return of.only_listed_fail ? &of.listed_for_faults : nullptr;
+                        }),
+               optional("faults_except", behaviors, "Behaviors that cannot become faulty.",
+                        [](const Assumptions& of) {
+                          return of.only_listed_fail || of.listed_for_faults.empty()
+                                     ? nullptr
+                                     : &of.listed_for_faults;
+                        }),
                member("situation", names,
                       "The situation variables that may change, and the behaviors that may become "
                       "unavailable.",

@@ -173,6 +173,19 @@ std::string describe_unrequested(const CompiledCatalog& catalog, const Assumptio
   return fmt::format("; {} {} not", list_with_and(names), count == 1 ? "is" : "are");
 }
 
+/// "; up to 2 of 5 behaviors faulty at a time"
+std::string describe_faults(const CompiledCatalog& catalog, const Assumptions& assumptions) {
+  if (assumptions.faults == 0) return "; none is faulty";
+  std::string text = fmt::format("; up to {}", assumptions.faults);
+  const std::size_t listed = assumptions.listed_for_faults.size();
+  if (assumptions.only_listed_fail || listed > 0) {
+    const std::size_t all = catalog.behaviors.size();
+    const std::size_t fallible = assumptions.only_listed_fail ? listed : all - listed;
+    text += fmt::format(" of {}", quantity(fallible, "behavior"));
+  }
+  return text + " faulty at a time";
+}
+
 std::string describe_requests(const CompiledCatalog& catalog, const Assumptions& assumptions) {
   if (assumptions.start.empty()) return "no task is requested";
   const auto& start = assumptions.start;
@@ -197,8 +210,7 @@ std::string describe_assumptions(const CompiledCatalog& catalog, const StatedAss
           : assumptions.successes                       ? "; behaviors succeed, but do not fail"
           : assumptions.failures                        ? "; behaviors fail, but do not succeed"
                                                         : "; behaviors do not finish";
-  text += assumptions.faults == 0 ? "; none is faulty"
-                                  : fmt::format("; up to {} faulty at a time", assumptions.faults);
+  text += describe_faults(catalog, assumptions);
   const std::size_t variables = catalog.variables.size();
   if (variables > 0) {
     const std::size_t changing = assumptions.variables.size();

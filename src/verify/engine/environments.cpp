@@ -64,8 +64,8 @@ Environments::Set Environments::denied(std::uint32_t behavior) {
 }
 
 Environments::Set Environments::faulty(std::uint32_t behavior) {
-  if (model_.layout().faulty_count == 0) return Diagrams::empty;
-  return sets_.with(first_fault_ + behavior, true);
+  const std::uint32_t fault = model_.behaviors()[behavior].fault;
+  return fault == none ? Diagrams::empty : sets_.with(first_fault_ + fault, true);
 }
 
 void Environments::find_conditions() {
@@ -103,12 +103,12 @@ void Environments::find_never() {
 }
 
 void Environments::count_faults_in_all() {
-  const std::uint32_t behaviors = model_.layout().faulty_count;
-  const std::uint32_t most = std::min(model_.assumptions().faults, behaviors);
+  const std::uint32_t faults = model_.layout().faulty_count;
+  const std::uint32_t most = std::min(model_.assumptions().faults, faults);
   exactly_.assign(most + 1, Diagrams::empty);
   exactly_[0] = Diagrams::all;
-  for (std::uint32_t behavior = behaviors; behavior-- > 0;) {
-    const Set faulty = sets_.with(first_fault_ + behavior, true);
+  for (std::uint32_t fault = faults; fault-- > 0;) {
+    const Set faulty = sets_.with(first_fault_ + fault, true);
     for (std::uint32_t count = most + 1; count-- > 0;) {
       const Set one_more = count > 0 ? sets_.both(exactly_[count - 1], faulty) : Diagrams::empty;
       exactly_[count] = sets_.either(sets_.without(exactly_[count], faulty), one_more);
@@ -116,14 +116,14 @@ void Environments::count_faults_in_all() {
   }
   for (std::uint32_t count = 0; count < most; ++count) room_ = sets_.either(room_, exactly_[count]);
   std::vector<bool> all_bits(sets_.bits(), false);
-  for (std::uint32_t group = 0; group < model_.groups().size(); ++group) {
-    std::vector<bool> bits(sets_.bits(), false);
-    const BitRange range = model_.groups()[group].behaviors;
-    for (std::uint32_t behavior = range.begin; behavior < range.end && behaviors > 0; ++behavior) {
-      bits[first_fault_ + behavior] = true;
-      all_bits[first_fault_ + behavior] = true;
-    }
-    faults_of_group_.push_back(sets_.keep_bits(std::move(bits)));
+  std::vector<std::vector<bool>> bits(model_.groups().size(), all_bits);
+  for (const Model::Behavior& behavior : model_.behaviors()) {
+    if (behavior.fault == none) continue;
+    all_bits[first_fault_ + behavior.fault] = true;
+    bits[behavior.group][first_fault_ + behavior.fault] = true;
+  }
+  for (std::vector<bool>& of_group : bits) {
+    faults_of_group_.push_back(sets_.keep_bits(std::move(of_group)));
   }
   all_faults_ = sets_.keep_bits(std::move(all_bits));
 }
@@ -225,8 +225,8 @@ void Environments::read(const std::uint16_t* cells, std::vector<std::uint8_t>& s
   for (std::uint32_t own = 0; own < layout.own_count; ++own) {
     string[first_own_ + own] = cells[layout.own + own] != 0 ? 1 : 0;
   }
-  for (std::uint32_t behavior = 0; behavior < layout.faulty_count; ++behavior) {
-    string[first_fault_ + behavior] = cells[layout.faulty + behavior] != 0 ? 1 : 0;
+  for (std::uint32_t fault = 0; fault < layout.faulty_count; ++fault) {
+    string[first_fault_ + fault] = cells[layout.faulty + fault] != 0 ? 1 : 0;
   }
 }
 

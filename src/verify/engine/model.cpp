@@ -38,6 +38,7 @@ Model::Model(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
   add_rivals();
   find_interactions();
   add_own_flags(situation);
+  add_faults();
   lay_out();
   add_never();
   add_moves();
@@ -246,6 +247,17 @@ void Model::add_own_flags(const StateSituation& situation) {
   for (const BehaviorId behavior : left) own_flags_.push_back({behavior, none});
 }
 
+void Model::add_faults() {
+  if (assumptions_.faults == 0) return;
+  const std::vector<bool> is_listed =
+      members_of(assumptions_.listed_for_faults, catalog_.behaviors.size());
+  for (Behavior& behavior : behaviors_) {
+    if (is_listed[behavior.id] != assumptions_.only_listed_fail) continue;
+    behavior.fault = layout_.faulty_count++;
+    groups_[behavior.group].has_faults = true;
+  }
+}
+
 void Model::rank_priorities() {
   std::set<std::int32_t> priorities{0};
   for (const Assumptions::Start& start : assumptions_.start) {
@@ -355,10 +367,7 @@ void Model::lay_out() {
   layout_.own_count = static_cast<std::uint32_t>(own_flags_.size());
   for (std::uint32_t flag = 0; flag < layout_.own_count; ++flag) add(1);
   layout_.faulty = here();
-  if (assumptions_.faults > 0) {
-    layout_.faulty_count = static_cast<std::uint32_t>(behaviors_.size());
-    for (std::uint32_t behavior = 0; behavior < behaviors_.size(); ++behavior) add(1);
-  }
+  for (std::uint32_t fault = 0; fault < layout_.faulty_count; ++fault) add(1);
   layout_.cells = here();
   packed_words_ = std::max<std::size_t>(1, (bits + 31) / 32);
 }
@@ -438,9 +447,11 @@ void Model::add_moves() {
     if (!is_denied && behaviors_[behavior].own == none) continue;
     moves_.push_back({{Move::Kind::situation_change, index_of_behavior(behavior), 0}, behavior, 0});
   }
-  if (assumptions_.faults > 0) {
-    add_for_behaviors(Move::Kind::fault);
-    add_for_behaviors(Move::Kind::repair);
+  for (const Move::Kind kind : {Move::Kind::fault, Move::Kind::repair}) {
+    for (const std::uint32_t behavior : behaviors_in_order_) {
+      if (behaviors_[behavior].fault == none) continue;
+      moves_.push_back({{kind, index_of_behavior(behavior), 0}, behavior, 0});
+    }
   }
   for (std::uint32_t variable = 0; variable < variables_.size(); ++variable) {
     if (variables_[variable].cell == none) continue;

@@ -98,12 +98,14 @@ class Model {
     BitRange values;
     BitRange behaviors;
     std::vector<std::uint32_t> reactive;  ///< its reactive tasks, by their numbers
+    bool has_faults = false;              ///< a behavior of it can become faulty
   };
   struct Behavior {
     BehaviorId id;
     std::uint32_t group = 0;  ///< place in groups()
     std::vector<std::uint32_t> values;
-    std::uint32_t own = none;  ///< its number among the own flags
+    std::uint32_t own = none;    ///< its number among the own flags
+    std::uint32_t fault = none;  ///< its number among those that can become faulty
   };
   /// A behavior whose own(b) is part of the state, as it may change: one of the groups, or another
   /// one that `never` ties to something in the state.
@@ -139,7 +141,7 @@ class Model {
     std::uint32_t own = 0;
     std::uint32_t own_count = 0;
     std::uint32_t faulty = 0;
-    std::uint32_t faulty_count = 0;  ///< behaviors, or 0 if there are no faults
+    std::uint32_t faulty_count = 0;  ///< behaviors that can become faulty
     std::uint32_t cells = 0;
   };
   /// Where a cell stands in a packed state.
@@ -232,6 +234,7 @@ class Model {
   void find_interactions();
   [[nodiscard]] bool add_variables(const StateSituation& situation);
   void add_own_flags(const StateSituation& situation);
+  void add_faults();
   void rank_priorities();
   void lay_out();
   void add_moves();

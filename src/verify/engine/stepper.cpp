@@ -207,10 +207,10 @@ bool Stepper::take(const Model::Choice& choice) {
   const std::uint32_t subject = choice.subject;
   switch (choice.move.kind) {
     case Move::Kind::fault:
-      now_.cells[layout.faulty + subject] = 1;
+      now_.cells[layout.faulty + model_.behaviors()[subject].fault] = 1;
       break;
     case Move::Kind::repair:
-      now_.cells[layout.faulty + subject] = 0;
+      now_.cells[layout.faulty + model_.behaviors()[subject].fault] = 0;
       break;
     case Move::Kind::variable:
       if (!change_situation(model_.variables()[subject].cell,
@@ -426,9 +426,10 @@ bool Stepper::is_confirmed(EnvironmentQuery::Kind kind, std::uint32_t behavior) 
 }
 
 bool Stepper::is_faulty_now(std::uint32_t behavior) const {
-  if (model_.layout().faulty_count == 0) return false;
+  const std::uint32_t fault = model_.behaviors()[behavior].fault;
+  if (fault == none) return false;
   return environment_ != nullptr ? environment_->holds({EnvironmentQuery::Kind::faulty, behavior})
-                                 : now_.cells[model_.layout().faulty + behavior] != 0;
+                                 : now_.cells[model_.layout().faulty + fault] != 0;
 }
 
 /// Whether a behavior of the group has become available.

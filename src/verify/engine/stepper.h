@@ -137,7 +137,8 @@ class Stepper {
     return has_bit(before_.possible.available.data(), behavior);
   }
   [[nodiscard]] bool is_faulty(std::uint32_t behavior) const {
-    return model_.layout().faulty_count > 0 && cells()[model_.layout().faulty + behavior] != 0;
+    const std::uint32_t fault = model_.behaviors()[behavior].fault;
+    return fault != none && cells()[model_.layout().faulty + fault] != 0;
   }
   /// Whether own(b) is false.
   [[nodiscard]] bool is_denied(std::uint32_t behavior) const {
