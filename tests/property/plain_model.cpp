@@ -84,11 +84,29 @@ bool is_active(const Snapshot& state, BehaviorId behavior) {
                      [behavior](const auto& entry) { return entry.first == behavior; });
 }
 
-void handle_move(const CompiledCatalog& catalog, const Move& move, Coordinator& coordinator) {
+std::vector<std::vector<VariableValue>> combinations_of(
+    const CompiledCatalog& catalog, const std::vector<std::uint32_t>& variables) {
+  std::vector<std::vector<VariableValue>> all(1);
+  for (const std::uint32_t variable : variables) {
+    std::vector<std::vector<VariableValue>> longer;
+    for (const auto& values : all) {
+      for (std::uint32_t value = 0; value < catalog.variables[variable].value_count; ++value) {
+        longer.push_back(values);
+        longer.back().push_back({variable, value});
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+void handle_move(const CompiledCatalog& catalog, const Assumptions& assumptions, const Move& move,
+                 Coordinator& coordinator) {
   Event event;
   event.subject = move.subject;
   const Availability own{move.subject, move.choice != 0};
   const VariableValue value{move.subject, static_cast<std::uint32_t>(move.choice)};
+  std::vector<VariableValue> values;
   switch (move.kind) {
     case Move::Kind::start:
       event.verb = Verb::start;
@@ -120,6 +138,12 @@ void handle_move(const CompiledCatalog& catalog, const Move& move, Coordinator& 
     case Move::Kind::own:
       event.verb = Verb::situation;
       event.situation = std::span(&own, 1);
+      break;
+    case Move::Kind::together:
+      values = combinations_of(catalog, assumptions.together.at(move.subject))
+                   .at(static_cast<std::size_t>(move.choice));
+      event.verb = Verb::situation;
+      event.variables = values;
       break;
     case Move::Kind::due:
       demand(coordinator.next_due() == coordinator.now(), "nothing is due");
@@ -292,6 +316,28 @@ void PlainModel::add_situations(const Snapshot& state, std::vector<Move>& moves)
     moves.push_back(
         {Move::Kind::own, catalog_.behaviors[behavior].catalog_index, available ? 1 : 0});
   }
+  for (std::uint32_t list = 0; list < assumptions_.together.size(); ++list) {
+    const auto all = combinations_of(catalog_, assumptions_.together[list]);
+    for (std::size_t number = 0; number < all.size(); ++number) {
+      if (!may_change_to(state, all[number])) continue;
+      moves.push_back({Move::Kind::together, list, static_cast<std::int32_t>(number)});
+    }
+  }
+}
+
+/// Whether these values, and no fewer than two of the state, are others, and may be.
+bool PlainModel::may_change_to(const Snapshot& state,
+                               const std::vector<VariableValue>& values) const {
+  Snapshot next = state;
+  std::size_t changes = 0;
+  for (const VariableValue& value : values) {
+    if (state.variables[value.variable] == value.value) continue;
+    if (!contains(variables_, value.variable)) return false;
+    if (!contains(assumptions_.variables, value.variable)) return false;
+    next.variables[value.variable] = value.value;
+    ++changes;
+  }
+  return changes >= 2 && !is_excluded(next);
 }
 
 Step PlainModel::step(const Snapshot& state, const Move& move,
@@ -308,7 +354,7 @@ Step PlainModel::step(const Snapshot& state, const Move& move,
     // Nothing is due before the first set, which is due then.
     demand(coordinator.advance_to(1) == Coordinator::Status::ok, coordinator.internal_error());
   }
-  handle_move(catalog_, move, coordinator);
+  handle_move(catalog_, assumptions_, move, coordinator);
   const Snapshot saved = coordinator.snapshot();
   Step step;
   step.next = as_state(saved);

@@ -79,6 +79,8 @@ class PlainModel {
   void add_finishes(const Snapshot& state, std::vector<Move>& moves) const;
   void add_faults(const Snapshot& state, std::vector<Move>& moves) const;
   void add_situations(const Snapshot& state, std::vector<Move>& moves) const;
+  [[nodiscard]] bool may_change_to(const Snapshot& state,
+                                   const std::vector<VariableValue>& values) const;
 
   const CompiledCatalog& catalog_;
   const Assumptions& assumptions_;
@@ -96,6 +98,11 @@ class PlainModel {
 
 /// Handles one move at the present instant, for which the first set is due if the move is that.
 /// Throws std::runtime_error if the coordinator fails.
-void handle_move(const CompiledCatalog& catalog, const Move& move, Coordinator& coordinator);
+void handle_move(const CompiledCatalog& catalog, const Assumptions& assumptions, const Move& move,
+                 Coordinator& coordinator);
+
+/// Of some variables, all values that they may have together, in the order of values.
+[[nodiscard]] std::vector<std::vector<VariableValue>> combinations_of(
+    const CompiledCatalog& catalog, const std::vector<std::uint32_t>& variables);
 
 }  // namespace cbc::plain

@@ -1,8 +1,10 @@
 #include "core/property/property_reader.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -332,6 +334,75 @@ TEST(Assumptions, ReportMistakesAboutFaults) {
             "  3:21-23 'of' is here\n");
 }
 
+TEST(Assumptions, LetVariablesChangeTogether) {
+  const auto lists_of = [](const std::string& text) {
+    std::string lists;
+    for (const auto& list : read("properties: []\nassume: {" + text + "}").assumptions.together) {
+      for (const std::uint32_t variable : list) lists += std::to_string(variable) + " ";
+      lists += "; ";
+    }
+    return lists;
+  };
+  EXPECT_EQ(lists_of("together: [[LIGHT, SIGNAL], [SIGNAL, LIGHT]]"), "0 1 ; 0 1 ; ");
+  EXPECT_EQ(lists_of("together: [], situation: [GPS]"), "");
+  const auto findings_of = [](const std::string& together, const std::string& rest = "") {
+    return findings("properties: []\nassume: {" + rest + "together: " + together + "}");
+  };
+  EXPECT_EQ(findings_of("LIGHT"),
+            "2:20-25 error wrong-type: 'together' must be a list of lists of situation variables, "
+            "found 'LIGHT'\n");
+  EXPECT_EQ(findings_of("[LIGHT, SIGNAL]"),
+            "2:21-26 error wrong-type: 'together' must be lists of situation variables, found "
+            "'LIGHT'\n"
+            "2:28-34 error wrong-type: 'together' must be lists of situation variables, found "
+            "'SIGNAL'\n");
+  EXPECT_EQ(findings_of("[[], [SIGNAL]]"),
+            "2:21-22 error invalid-value: expected at least two variables that change at once, "
+            "found none\n"
+            "2:25-26 error invalid-value: expected at least two variables that change at once, "
+            "found one\n");
+  EXPECT_EQ(findings_of("[[SIGNAL, GPS, LIGTH, SIGNAL]]"),
+            "2:30-33 error invalid-value: 'together' lists situation variables, found behavior "
+            "'GPS'\n"
+            "2:35-40 error undeclared-situation: there is no behavior or situation variable "
+            "'LIGTH'; did you mean 'LIGHT'?\n"
+            "2:42-48 error invalid-value: 'SIGNAL' is listed twice\n"
+            "  2:22-28 first listed here\n");
+  EXPECT_EQ(findings_of("[[SIGNAL, LIGHT]]", "situation: [LIGHT], "),
+            "2:42-48 error invalid-value: 'SIGNAL' never changes, as 'situation' of 'assume' does "
+            "not list it\n");
+}
+
+TEST(Assumptions, SayWhichVariablesNeverKeeps) {
+  const auto frozen_by = [](const std::string& assume) {
+    const Result result = read_any("properties: []\nassume: {" + assume + "}");
+    return result.file ? result.file->assumptions.frozen : std::vector<std::uint32_t>{};
+  };
+  using Variables = std::vector<std::uint32_t>;
+  // There is no situation with another value, so what is proved of it is so.
+  EXPECT_EQ(findings("assume: {never: [{SIGNAL: false}]}\nproperties: []"), "");
+  EXPECT_EQ(frozen_by("never: [{SIGNAL: false}]"), Variables{0});
+  constexpr const char* coupled =
+      "never: [{LIGHT: day, SIGNAL: false}, {LIGHT: dusk, SIGNAL: true}, "
+      "{LIGHT: night, SIGNAL: true}]";
+  EXPECT_EQ(findings(std::string("properties: []\nassume: {") + coupled + "}"),
+            "2:18-19 warning impossible-expectation: 'never' keeps 'SIGNAL' and 'LIGHT' from ever "
+            "changing, as it excludes each change of one variable; 'together: [[SIGNAL, LIGHT]]' "
+            "lets several change at once\n"
+            "  2:47-48 as does this\n"
+            "  2:76-77 as does this\n");
+  EXPECT_EQ(findings(std::string("properties: []\nassume: {together: [[LIGHT, SIGNAL]], ") +
+                     coupled + "}"),
+            "");
+  EXPECT_EQ(findings("assume: {never: [{SIGNAL: false}], situation: [LIGHT]}\nproperties: []"), "");
+  EXPECT_EQ(frozen_by(coupled), (Variables{0, 1}));
+  EXPECT_EQ(frozen_by("never: [{SIGNAL: false}], situation: [LIGHT]"), Variables{});
+  // LIGHT changes, but not SIGNAL.
+  EXPECT_EQ(frozen_by("never: [{SIGNAL: false, LIGHT: day}, {SIGNAL: false, LIGHT: dusk}, "
+                      "{SIGNAL: false, LIGHT: night}]"),
+            Variables{0});
+}
+
 // Properties -------------------------------------------------------------------------------------
 
 TEST(PropertyFiles, AreMappings) {
@@ -536,6 +607,13 @@ TEST(Conditions, MayBeRuledOutByTheAssumptions) {
   EXPECT_EQ(findings_of_property("reachable: {faulty: [GPS, SLAM]}", assume),
             "3:29-33 warning impossible-expectation: this can never hold: 'faults' of 'assume' "
             "allows only 1 at a time\n");
+  EXPECT_EQ(
+      findings_of_property("reachable: {faulty: [GPS]}", "{faults: {most: 1, of: [SLAM]}}"),
+      "3:24-27 warning impossible-expectation: this can never hold: behavior 'GPS' cannot become "
+      "faulty by 'faults' of 'assume'\n");
+  EXPECT_EQ(
+      findings_of_property("reachable: {faulty: [GPS]}", "{faults: {most: 1, except: [SLAM]}}"),
+      "");
   EXPECT_EQ(findings_of_property("reachable: {faulty: [GPS]}"),
             "3:24-27 warning impossible-expectation: this can never hold: no behavior becomes "
             "faulty, as 'faults' of 'assume' is 0\n");

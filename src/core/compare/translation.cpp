@@ -188,6 +188,12 @@ Assumptions translate(const Assumptions& from, const Translation& to) {
     SituationPart translated = translate(part, to, is_whole);
     if (is_whole) result.never.push_back(std::move(translated));
   }
+  result.frozen = translate(from.frozen, to.variables);
+  // Moves count the lists.
+  for (std::vector<std::uint32_t>& list : result.together) {
+    list = translate(list, to.variables);
+    std::sort(list.begin(), list.end());
+  }
   bool is_whole = true;
   result.initially = translate(from.initially, to, is_whole);
   return result;

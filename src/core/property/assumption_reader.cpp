@@ -1,12 +1,16 @@
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/diagnostic/rules.h"
+#include "core/property/frozen_variables.h"
 #include "core/property/property_reader.h"
 #include "core/script/names.h"
+#include "core/support/wording.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
@@ -23,6 +27,7 @@ class AssumptionReader {
       : names_(names), catalog_(names.catalog()), reporter_(reporter) {}
 
   Assumptions read(const Node* assume, const Node* initially, bool knows_all) && {
+    const std::size_t errors = reporter_.errors();
     out_ = default_assumptions(catalog_);
     knows_first_ = knows_all;
     if (initially != nullptr) read_initially(*initially);
@@ -30,6 +35,7 @@ class AssumptionReader {
         yaml::read_mapping(*assume, "assume", "a mapping", reporter_) != nullptr) {
       read_assume(*assume);
     }
+    if (knows_first_ && reporter_.errors() == errors) report_frozen();
     return std::move(out_);
   }
 
@@ -47,7 +53,10 @@ class AssumptionReader {
     read_flag(fields, "successes", out_.successes);
     read_flag(fields, "failures", out_.failures);
     if (const Node* faults = fields.find("faults")) read_faults(*faults);
+    const std::size_t errors = reporter_.errors();
     if (const Node* situation = fields.find("situation")) read_changing(*situation);
+    knows_changing_ = reporter_.errors() == errors && !fields.has_unknown();
+    if (const Node* together = fields.find("together")) read_together(*together);
     if (const Node* never = fields.find("never")) read_never(*never);
     fields.report_unknown(yaml::UnknownKeys::refused);
   }
@@ -198,6 +207,57 @@ class AssumptionReader {
     sort_behaviors(out_.behaviors);
   }
 
+  void read_together(const Node& node) {
+    constexpr std::string_view expected = "a list of lists of situation variables";
+    if (yaml::read_list(node, "together", expected, reporter_) == nullptr) return;
+    for (const Node* item : node.items) {
+      const std::size_t errors = reporter_.errors();
+      std::vector<std::uint32_t> variables = read_variables(*item);
+      if (reporter_.errors() > errors) continue;
+      if (variables.size() < 2) {
+        reporter_.report(rule::invalid_value, item->range,
+                         concat("expected at least two variables that change at once, found ",
+                                variables.size() == 1 ? "one" : "none"));
+      } else if (count_combinations(catalog_, variables) > most_values_together) {
+        reporter_.report(rule::invalid_value, item->range,
+                         concat("expected at most ", most_values_together,
+                                " combinations of values of the variables of a list, found more"));
+      } else {
+        out_.together.push_back(std::move(variables));
+      }
+    }
+  }
+
+  std::vector<std::uint32_t> read_variables(const Node& list) {
+    std::vector<std::uint32_t> variables;
+    constexpr std::string_view expected = "lists of situation variables";
+    if (yaml::read_list(list, "together", expected, reporter_) == nullptr) return variables;
+    ListedNames listed;
+    for (const Node* item : list.items) {
+      const auto part = names_.find_part(*item, reporter_, &list);
+      if (!part) continue;
+      if (!part->is_variable) {
+        reporter_.report(
+            rule::invalid_value, item->range,
+            concat("'together' lists situation variables, found behavior ", quote(item->text)));
+      } else if (!may_change(part->place)) {
+        reporter_.report(rule::invalid_value, item->range,
+                         concat(quote(item->text),
+                                " never changes, as 'situation' of 'assume' does not list it"));
+      } else if (listed.add(part->place, *item, reporter_)) {
+        variables.push_back(part->place);
+      }
+    }
+    std::sort(variables.begin(), variables.end());
+    return variables;
+  }
+
+  /// Also if that is not known.
+  [[nodiscard]] bool may_change(std::uint32_t variable) const {
+    return !knows_changing_ ||
+           std::binary_search(out_.variables.begin(), out_.variables.end(), variable);
+  }
+
   void read_never(const Node& node) {
     if (yaml::read_list(node, "never", "a list of situations", reporter_) == nullptr) return;
     for (const Node* item : node.items) {
@@ -216,7 +276,41 @@ class AssumptionReader {
                          "one");
       }
       out_.never.push_back(part);
+      never_ranges_.push_back(item->range);
     }
+  }
+
+  /// Where other values would be possible, but no move leads to them, proofs would be vacuous.
+  void report_frozen() {
+    for (const FrozenVariables& frozen : find_frozen_variables(catalog_, out_)) {
+      out_.frozen.insert(out_.frozen.end(), frozen.variables.begin(), frozen.variables.end());
+      if (frozen.together.empty()) continue;
+      std::vector<Note> notes;
+      for (std::size_t place = 1; place < frozen.entries.size(); ++place) {
+        notes.push_back(reporter_.note(never_ranges_[frozen.entries[place]], "as does this"));
+      }
+      reporter_.report_as(
+          {Severity::warning}, rule::impossible_expectation, never_ranges_[frozen.entries.front()],
+          concat("'never' keeps ", quoted(frozen.coupled),
+                 " from ever changing, as it excludes each change of one variable; ",
+                 quote(concat("together: [[", listed(frozen.together), "]]")),
+                 " lets several change at once"),
+          std::move(notes));
+    }
+    std::sort(out_.frozen.begin(), out_.frozen.end());
+  }
+
+  [[nodiscard]] std::string listed(const std::vector<std::uint32_t>& variables) const {
+    return join(variables, ", ", [this](std::uint32_t variable) {
+      return std::string(catalog_.name_of_variable(variable));
+    });
+  }
+  [[nodiscard]] std::string quoted(const std::vector<std::uint32_t>& variables) const {
+    std::vector<std::string> names;
+    for (const std::uint32_t variable : variables) {
+      names.push_back(quote(catalog_.name_of_variable(variable)));
+    }
+    return list_with_and(names);
   }
 
   [[nodiscard]] bool is_first(const SituationPart& part) const {
@@ -238,7 +332,9 @@ class AssumptionReader {
   const CompiledCatalog& catalog_;
   Reporter& reporter_;
   Assumptions out_;
-  bool knows_first_ = true;  ///< the situation at the beginning is understood
+  std::vector<Range> never_ranges_;  ///< by entry
+  bool knows_first_ = true;          ///< the situation at the beginning is understood
+  bool knows_changing_ = true;       ///< what may change is understood
 };
 
 }  // namespace

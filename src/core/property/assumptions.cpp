@@ -34,6 +34,28 @@ bool is_available_at_first(const Assumptions& assumptions, BehaviorId behavior) 
   return found == behaviors.end() || found->available;
 }
 
+std::uint32_t count_combinations(const CompiledCatalog& catalog,
+                                 const std::vector<std::uint32_t>& variables) {
+  std::uint64_t count = 1;
+  for (const std::uint32_t variable : variables) {
+    count *= catalog.variables[variable].value_count;
+    if (count > most_values_together) return most_values_together + 1;
+  }
+  return static_cast<std::uint32_t>(count);
+}
+
+std::vector<VariableValue> combination_of(const CompiledCatalog& catalog,
+                                          const std::vector<std::uint32_t>& variables,
+                                          std::uint32_t number) {
+  std::vector<VariableValue> values(variables.size());
+  for (std::size_t place = variables.size(); place-- > 0;) {
+    const std::uint32_t count = catalog.variables[variables[place]].value_count;
+    values[place] = {variables[place], number % count};
+    number /= count;
+  }
+  return values;
+}
+
 bool can_become_faulty(const Assumptions& assumptions, BehaviorId behavior) {
   const auto& listed = assumptions.listed_for_faults;
   const bool is_listed = std::find(listed.begin(), listed.end(), behavior) != listed.end();

@@ -271,6 +271,11 @@ class ConditionReader {
                 ? "no behavior becomes faulty, as 'faults' of 'assume' is 0"
                 : concat("'faults' of 'assume' allows only ", assumptions.faults, " at a time"));
     }
+    for (const NamedBehavior& behavior : faulty_) {
+      if (assumptions.faults == 0 || can_become_faulty(assumptions, behavior.id)) continue;
+      doubt(behavior.range, "behavior " + quote(catalog_.name_of_behavior(behavior.id)) +
+                                " cannot become faulty by 'faults' of 'assume'");
+    }
     for (const Requested& requested : requested_) check_priority(requested, assumptions);
     for (const VariableValue value : situation_.variables) check_variable(value, assumptions);
     for (const SituationPart::Own& own : situation_.behaviors) check_own(own, assumptions);

@@ -19,7 +19,7 @@ using yaml::Shape;
 
 constexpr Key file_keys[] = {{"catalog"}, {"assume"}, {"initially"}, {"properties"}};
 constexpr Key assumption_keys[] = {{"start"},  {"stop"},      {"successes"}, {"failures"},
-                                   {"faults"}, {"situation"}, {"never"}};
+                                   {"faults"}, {"situation"}, {"never"},     {"together"}};
 constexpr Key fault_keys[] = {{"most"}, {"of"}, {"except"}};
 constexpr Key property_keys[] = {{"name"},  {"can_start"}, {"priority"}, {"always"},
                                  {"never"}, {"reachable"}, {"when"},     {"settled"}};

@@ -126,7 +126,7 @@ void StateReplay::take(const Move& move) {
     // Before the second set.
     static_cast<void>(coordinator_.advance_to(present_instant + 2));
   } else {
-    const Step step = step_of(move);
+    const Step step = step_of(model_.catalog(), model_.assumptions(), move);
     static_cast<void>(coordinator_.handle(event_of(step)));
   }
   gave_way_.clear();
@@ -293,7 +293,8 @@ GoalSearchResult search_goals(const CompiledCatalog& catalog, GoalScope scope,
   }
   const Model model(catalog, groups, assumptions, variables);
   // What is about no group comes after the last one.
-  const GroupId shown = scope.group.value_or(GroupId(catalog.group_count() - 1));
+  const GroupId shown = scope.group.value_or(
+      GroupId(static_cast<std::uint32_t>(std::max<std::size_t>(1, catalog.group_count()) - 1)));
   result.error = model.find_obstacle();
   if (result.error) return result;
   // One state more than may be visited ends the search.
@@ -403,10 +404,14 @@ class GraphBuilder {
   }
 
   /// A monitor notes the values in each state. A path shows those at its beginning anyway.
-  static bool is_shown_by(const Goal& goal, const Move& move) {
-    return goal.kind != Goal::Kind::variable_value ||
-           (move.kind == Move::Kind::variable && move.subject == goal.variable &&
-            static_cast<std::uint32_t>(move.choice) == goal.value);
+  [[nodiscard]] bool is_shown_by(const Goal& goal, const Move& move) const {
+    if (goal.kind != Goal::Kind::variable_value) return true;
+    if (move.kind != Move::Kind::variable && move.kind != Move::Kind::together) return false;
+    const Step step = step_of(catalog_, assumptions_, move);
+    const auto& values = step.situation.variables;
+    return std::any_of(values.begin(), values.end(), [&](const VariableValue& value) {
+      return value.variable == goal.variable && value.value == goal.value;
+    });
   }
 
   void add_return(TaskId task, std::size_t offset) {

@@ -30,6 +30,7 @@ class MissionFinder {
         goals_(goals),
         assumptions_(assumptions),
         options_(options),
+        bound_(bound_variables(catalog, assumptions)),
         simulator_(catalog, goals, assumptions, options.is_over) {}
 
   MissingMissions find(const std::vector<std::uint8_t>& met) {
@@ -96,8 +97,13 @@ class MissionFinder {
   [[nodiscard]] bool is_explored(const Goal& goal) const {
     if (goal.kind == Goal::Kind::reactive_returned && is_stopped()) return false;
     const std::vector<GroupId> groups = groups_of(catalog_, goal);
-    const auto& open = result_.partial_variables;
-    if (std::find(open.begin(), open.end(), goal.variable) != open.end()) return false;
+    if (std::binary_search(bound_.begin(), bound_.end(), goal.variable)) {
+      const auto shows_all = [&](const GoalGraph::Part& part) {
+        return part.variable == goal.variable && part.is_complete;
+      };
+      return catalog_.group_count() == 0 ||
+             std::any_of(graph_.parts.begin(), graph_.parts.end(), shows_all);
+    }
     if (groups.empty()) return result_.unexplored > 0 || catalog_.group_count() == 0;
     return std::none_of(groups.begin(), groups.end(), [&](GroupId group) {
       return std::binary_search(result_.partial.begin(), result_.partial.end(), group);
@@ -312,6 +318,7 @@ class MissionFinder {
   const std::span<const Goal> goals_;
   const Assumptions& assumptions_;
   const MissingMissionOptions& options_;
+  const std::vector<std::uint32_t> bound_;  ///< see bound_variables()
   const MissionSimulator simulator_;
   GoalGraph graph_;
   MissingMissions result_;

@@ -148,6 +148,9 @@ void Environments::add_effects() {
         }
         break;
       }
+      case Move::Kind::together:
+        add_joint_effect(choice, model_.joint_changes()[move.subject]);
+        break;
       default: {
         Effect effect;
         effect.choice = choice;
@@ -165,9 +168,26 @@ void Environments::add_effect(std::uint32_t choice, Set condition, const Diagram
   effect.changes = true;
   effect.values = sets_.keep(values);
   effect.condition = sets_.without(condition, sets_.before_change(never_, effect.values));
+  if (effect.condition == Diagrams::empty) return;
   effect.table = static_cast<std::uint32_t>(tables_.size());
   tables_.emplace_back();
   effects_.push_back(effect);
+}
+
+/// It exists where at least two of the variables have other values.
+void Environments::add_joint_effect(std::uint32_t choice, const Model::JointChange& change) {
+  Set none_differs = Diagrams::all;
+  Set one_differs = Diagrams::empty;
+  Diagrams::Values all_values;
+  for (const auto& [variable, value] : change.values) {
+    const Set has_value = with_value(variable, value);
+    one_differs =
+        sets_.either(sets_.both(one_differs, has_value), sets_.without(none_differs, has_value));
+    none_differs = sets_.both(none_differs, has_value);
+    const Diagrams::Values values = values_of(variable, value);
+    all_values.bits.insert(all_values.bits.end(), values.bits.begin(), values.bits.end());
+  }
+  add_effect(choice, sets_.complement(sets_.either(none_differs, one_differs)), all_values);
 }
 
 Environments::Set Environments::after_to_before(const Effect& effect, Set set) {

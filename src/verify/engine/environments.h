@@ -91,6 +91,7 @@ class Environments {
   void count_faults_in_all();
   void add_effects();
   void add_effect(std::uint32_t choice, Set condition, const Diagrams::Values& values);
+  void add_joint_effect(std::uint32_t choice, const Model::JointChange& change);
   [[nodiscard]] Table& table_of(const Effect& effect);
   [[nodiscard]] Set after_to_before(const Effect& effect, Set set);
 

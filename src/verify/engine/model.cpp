@@ -453,6 +453,11 @@ void Model::add_moves() {
       moves_.push_back({{kind, index_of_behavior(behavior), 0}, behavior, 0});
     }
   }
+  add_situation_moves();
+  if (!reactive_.empty()) moves_.push_back({{Move::Kind::due, 0, 0}, 0, 0});
+}
+
+void Model::add_situation_moves() {
   for (std::uint32_t variable = 0; variable < variables_.size(); ++variable) {
     if (variables_[variable].cell == none) continue;
     for (std::uint32_t value = 0; value < variables_[variable].values; ++value) {
@@ -471,7 +476,33 @@ void Model::add_moves() {
     // Which of the two it becomes is filled in where the move is taken.
     moves_.push_back({{Move::Kind::own, index, 0}, flag, 0});
   }
-  if (!reactive_.empty()) moves_.push_back({{Move::Kind::due, 0, 0}, 0, 0});
+  for (std::uint32_t list = 0; list < assumptions_.together.size(); ++list) {
+    add_joint_changes(list);
+  }
+}
+
+/// Those of its variables that are not part of the state do not matter, and keep their first value.
+void Model::add_joint_changes(std::uint32_t list) {
+  const std::vector<std::uint32_t>& variables = assumptions_.together[list];
+  const std::uint32_t count = count_combinations(catalog_, variables);
+  is_too_large_ = is_too_large_ || count > most_values_together;
+  for (std::uint32_t number = 0; number < count && !is_too_large_; ++number) {
+    JointChange change;
+    bool is_possible = true;
+    for (const VariableValue& value : combination_of(catalog_, variables, number)) {
+      const std::uint32_t place = find_variable(value.variable);
+      if (place != none && variables_[place].cell != none) {
+        change.values.emplace_back(place, value.value);
+      } else {
+        is_possible = is_possible && value.value == initial_value(assumptions_, value.variable);
+      }
+    }
+    if (!is_possible || change.values.size() < 2) continue;
+    moves_.push_back({{Move::Kind::together, list, static_cast<std::int32_t>(number)},
+                      static_cast<std::uint32_t>(joint_changes_.size()),
+                      0});
+    joint_changes_.push_back(std::move(change));
+  }
 }
 
 std::vector<std::uint16_t> Model::first_state() const {
@@ -494,8 +525,10 @@ std::optional<std::string> Model::find_obstacle() const {
     return fmt::format(
         "too large to explore: the tasks of a group, the behaviors of a task, the values of a "
         "variable and the priorities may be {} each, the behaviors of a group times the values of "
-        "its variables {}, and a state may take {} bytes",
-        most_in_cell, most_misfit_words * 64, 4 * most_in_cell);
+        "its variables {}, the values of variables that change together {}, and a state may take "
+        "{} "
+        "bytes",
+        most_in_cell, most_misfit_words * 64, most_values_together, 4 * most_in_cell);
   }
   if (is_excluded(first_state().data())) {
     return "the first state is in a situation that 'never' excludes";

@@ -53,12 +53,16 @@ struct Move {
     repair,
     variable,  ///< a situation variable gets another value
     own,       ///< own(b) becomes the other of the two
+    together,  ///< some variables of a list of `together` get other values at once
     due        ///< the first set of the queue comes due
   };
   Kind kind = Kind::due;
-  /// Place in the catalog of the task (start, stop), the behavior, or the variable; 0 if due.
+  /// Place in the catalog of the task (start, stop), the behavior, or the variable; of together the
+  /// place of the list; 0 if due.
   std::uint32_t subject = 0;
   /// Of start: the priority. Of variable: the value. Of own: whether the behavior is available now.
+  /// Of together: the values of its variables (combination_of()); of those that are not part of the
+  /// state, that at first.
   std::int32_t choice = 0;
 
   bool operator==(const Move&) const = default;
@@ -121,10 +125,15 @@ class Model {
     /// By value: the behaviors that do not fit.
     std::vector<std::vector<Word>> misfits;
   };
+  /// Values that several variables get at once. It is a move where at least two have other ones.
+  struct JointChange {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> values;  ///< variables, ascending; values
+  };
   struct Choice {
     Move move;
-    std::uint32_t subject = 0;  ///< task, behavior, variable or own flag as the model counts them
-    std::uint32_t choice = 0;   ///< of start: the rank; of variable: the value
+    /// Task, behavior, variable, own flag or joint change as the model counts them.
+    std::uint32_t subject = 0;
+    std::uint32_t choice = 0;  ///< of start: the rank; of variable: the value
   };
 
   /// A state consists of cells. Their order: values of tasks (value index + 1, 0: not running);
@@ -164,6 +173,7 @@ class Model {
   [[nodiscard]] const std::vector<Behavior>& behaviors() const { return behaviors_; }
   [[nodiscard]] const std::vector<Variable>& variables() const { return variables_; }
   [[nodiscard]] const std::vector<OwnFlag>& own_flags() const { return own_flags_; }
+  [[nodiscard]] const std::vector<JointChange>& joint_changes() const { return joint_changes_; }
   /// By value of a task: the task, the behavior.
   [[nodiscard]] std::uint32_t task_of(std::uint32_t value) const { return task_of_[value]; }
   [[nodiscard]] std::uint32_t behavior_of(std::uint32_t value) const { return behavior_of_[value]; }
@@ -238,6 +248,8 @@ class Model {
   void rank_priorities();
   void lay_out();
   void add_moves();
+  void add_situation_moves();
+  void add_joint_changes(std::uint32_t list);
   void add_never();
   [[nodiscard]] std::uint32_t most_requests() const;
 
@@ -248,6 +260,7 @@ class Model {
   std::vector<Behavior> behaviors_;  ///< of each group by level, then BehaviorId
   std::vector<Variable> variables_;
   std::vector<OwnFlag> own_flags_;
+  std::vector<JointChange> joint_changes_;
   std::vector<std::uint32_t> task_of_;
   std::vector<std::uint32_t> behavior_of_;
   std::vector<std::uint32_t> reactive_;

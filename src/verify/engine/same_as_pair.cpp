@@ -76,22 +76,33 @@ ModelPair::Key ModelPair::key_of(const Model& model, const Model::Choice& choice
   const auto id_of = [&](auto id, auto ids) {
     return to_other == nullptr ? id : (to_other->*ids)[id];
   };
+  const auto value_of = [&](std::uint32_t place, std::uint32_t value) {
+    const std::uint32_t variable = model.variables()[place].id;
+    return std::pair<std::uint32_t, std::int64_t>(
+        id_of(variable, &Translation::variables),
+        to_other == nullptr ? value : to_other->values[variable][value]);
+  };
   switch (kind) {
     case Move::Kind::due:
-      return {kind, 0, 0};
+      return {kind, {}};
     case Move::Kind::start:
     case Move::Kind::stop:
-      return {kind, id_of(model.tasks()[choice.subject].id, &Translation::tasks),
-              choice.move.choice};
-    case Move::Kind::variable: {
-      const std::uint32_t variable = model.variables()[choice.subject].id;
-      return {kind, id_of(variable, &Translation::variables),
-              to_other == nullptr ? choice.choice : to_other->values[variable][choice.choice]};
+      return {kind,
+              {{id_of(model.tasks()[choice.subject].id, &Translation::tasks), choice.move.choice}}};
+    case Move::Kind::variable:
+      return {kind, {value_of(choice.subject, choice.choice)}};
+    case Move::Kind::together: {
+      Key key{kind, {}};
+      for (const auto& [variable, value] : model.joint_changes()[choice.subject].values) {
+        key.second.push_back(value_of(variable, value));
+      }
+      std::sort(key.second.begin(), key.second.end());
+      return key;
     }
     case Move::Kind::own:
-      return {kind, id_of(model.own_flags()[choice.subject].id, &Translation::behaviors), 0};
+      return {kind, {{id_of(model.own_flags()[choice.subject].id, &Translation::behaviors), 0}}};
     default:
-      return {kind, id_of(model.behaviors()[choice.subject].id, &Translation::behaviors), 0};
+      return {kind, {{id_of(model.behaviors()[choice.subject].id, &Translation::behaviors), 0}}};
   }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -63,8 +62,8 @@ struct ModelPair {
   std::vector<bool> old_is_compared;
 
  private:
-  /// A move, with the id of its task, behavior or variable, and its priority or value.
-  using Key = std::tuple<Move::Kind, std::uint32_t, std::int64_t>;
+  /// A move, with the ids of its task, behavior or variables, each with its priority or value.
+  using Key = std::pair<Move::Kind, std::vector<std::pair<std::uint32_t, std::int64_t>>>;
 
   [[nodiscard]] static Key key_of(const Model& model, const Model::Choice& choice,
                                   const Translation* to_other);

@@ -195,6 +195,11 @@ bool Stepper::has_move(const Model::Choice& choice) const {
       return is_faulty(subject);
     case Move::Kind::variable:
       return value_of(subject) != choice.choice;
+    case Move::Kind::together: {
+      const auto& values = model_.joint_changes()[subject].values;
+      return std::count_if(values.begin(), values.end(),
+                           [&](const auto& one) { return value_of(one.first) != one.second; }) >= 2;
+    }
     default:
       return may_have_move(choice);
   }
@@ -213,16 +218,21 @@ bool Stepper::take(const Model::Choice& choice) {
       now_.cells[layout.faulty + model_.behaviors()[subject].fault] = 0;
       break;
     case Move::Kind::variable:
-      if (!change_situation(model_.variables()[subject].cell,
-                            static_cast<std::uint16_t>(choice.choice))) {
-        return false;
-      }
+      now_.cells[model_.variables()[subject].cell] = static_cast<std::uint16_t>(choice.choice);
+      if (!enter_situation()) return false;
       break;
     case Move::Kind::own: {
-      const std::uint32_t cell = layout.own + subject;
-      if (!change_situation(cell, now_.cells[cell] == 0 ? 1 : 0)) return false;
+      std::uint16_t& cell = now_.cells[layout.own + subject];
+      cell = cell == 0 ? 1 : 0;
+      if (!enter_situation()) return false;
       break;
     }
+    case Move::Kind::together:
+      for (const auto& [variable, value] : model_.joint_changes()[subject].values) {
+        now_.cells[model_.variables()[variable].cell] = static_cast<std::uint16_t>(value);
+      }
+      if (!enter_situation()) return false;
+      break;
     default:
       break;
   }
@@ -271,6 +281,7 @@ void Stepper::make(const Model::Choice& choice) {
       break;
     case Move::Kind::variable:
     case Move::Kind::own:
+    case Move::Kind::together:
       adapt();
       break;
     case Move::Kind::due:
@@ -380,9 +391,8 @@ void Stepper::start_reactive(std::uint32_t reactive) {
   }
 }
 
-/// False if the situation is excluded.
-bool Stepper::change_situation(std::uint32_t cell, std::uint16_t value) {
-  now_.cells[cell] = value;
+/// False if the new situation is excluded.
+bool Stepper::enter_situation() {
   if (model_.is_excluded(now_.cells.data())) return false;
   derive_situation(now_);
   return true;

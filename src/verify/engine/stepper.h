@@ -218,7 +218,7 @@ class Stepper {
   void finish(std::uint32_t behavior, FinishCause cause, Origin origin);
   void finish_lost();
   void start_reactive(std::uint32_t reactive);
-  bool change_situation(std::uint32_t cell, std::uint16_t value);
+  [[nodiscard]] bool enter_situation();
   void adapt();
   void make(const Model::Choice& choice);
   void come_due();
