@@ -166,8 +166,18 @@ bool prove(CatalogCoverage& coverage, const StatedAssumptions& stated,
     complain("--prove: not all states of group {} of {} were visited; nothing is proven about it",
              group, quote(catalog.file));
   }
-  const bool is_complete = std::all_of(proof.groups.begin(), proof.groups.end(),
-                                       [](const GoalSearchResult& one) { return one.is_complete; });
+  for (const auto& [variable, search] : proof.situations) {
+    if (search.is_complete) continue;
+    complain(
+        "--prove: not all situations of variable {} of {} were visited; nothing is proven about "
+        "it",
+        quote(catalog.name_of_variable(variable)), quote(catalog.file));
+  }
+  const bool is_complete =
+      std::all_of(proof.groups.begin(), proof.groups.end(),
+                  [](const GoalSearchResult& one) { return one.is_complete; }) &&
+      std::all_of(proof.situations.begin(), proof.situations.end(),
+                  [](const auto& one) { return one.second.is_complete; });
   coverage.set_unreachable(std::move(proof.unreachable), stated, is_complete);
   return true;
 }

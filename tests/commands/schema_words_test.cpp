@@ -132,6 +132,7 @@ TEST(SchemaWords, OfPropertyFiles) {
   const Json properties = schema("properties");
   expect_keys(properties, "", shape::property_file);
   expect_keys(properties, "/$defs/assumptions", shape::assumptions);
+  expect_keys(properties, "/$defs/faults", shape::faults);
   expect_keys(properties, "/$defs/property", shape::property);
   expect_keys(properties, "/$defs/condition", shape::condition);
 }

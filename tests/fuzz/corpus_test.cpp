@@ -121,12 +121,16 @@ TEST(Parts, AreSplitAsTheyAreJoined) {
 
 TEST(Dictionary, HasAllKeysAndRules) {
   const std::set<std::string_view> words(dictionary().begin(), dictionary().end());
-  for (const yaml::Shape* const top :
-       {&shape::catalog, &shape::default_values, &shape::task_defaults, &shape::behavior_defaults,
-        &shape::behavior, &shape::performance, &shape::requirement, &shape::task, &shape::parameter,
-        &shape::exclusivity_list, &shape::variable, &shape::script, &shape::event,
-        &shape::expectation, &shape::finished_task, &shape::property_file, &shape::assumptions,
-        &shape::property, &shape::condition}) {
+  for (const yaml::Shape* const top : {&shape::catalog,       &shape::default_values,
+                                       &shape::task_defaults, &shape::behavior_defaults,
+                                       &shape::behavior,      &shape::performance,
+                                       &shape::requirement,   &shape::task,
+                                       &shape::parameter,     &shape::exclusivity_list,
+                                       &shape::variable,      &shape::script,
+                                       &shape::event,         &shape::expectation,
+                                       &shape::finished_task, &shape::property_file,
+                                       &shape::assumptions,   &shape::faults,
+                                       &shape::property,      &shape::condition}) {
     for (const yaml::Key& key : top->keys) EXPECT_TRUE(words.contains(key.name)) << key.name;
   }
   for (const Rule& rule : all_rules()) EXPECT_TRUE(words.contains(rule.name)) << rule.name;

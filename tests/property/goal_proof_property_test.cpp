@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <exception>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -113,7 +114,7 @@ void run_path(const PlainModel& model, const std::vector<Move>& path, GoalMonito
   watch.begin(coordinator.state());
   for (std::size_t place = 0; place < path.size(); ++place) {
     demand(coordinator.advance_to(times[place]) == Coordinator::Status::ok, "it goes on");
-    handle_move(catalog, path[place], coordinator);
+    handle_move(catalog, model.assumptions(), path[place], coordinator);
   }
 }
 
@@ -139,6 +140,22 @@ bool run_group(const PlainModel& model, GoalMonitor& watch) {
   return true;
 }
 
+/// Whether some situation has the value, by a search through all that may be.
+bool may_have(const CompiledCatalog& catalog, const Assumptions& assumptions, const Goal& goal) {
+  const PlainModel model(catalog, {}, assumptions, {goal.variable});
+  std::vector<Snapshot> states = {model.first_state()};
+  std::set<std::string> seen = {model.key(states.front())};
+  for (std::size_t place = 0; place < states.size(); ++place) {
+    const Snapshot state = states[place];  // the states may move
+    if (state.variables[goal.variable] == goal.value) return true;
+    for (const Move& move : model.moves(state)) {
+      Snapshot next = model.step(state, move).next;
+      if (seen.insert(model.key(next)).second) states.push_back(std::move(next));
+    }
+  }
+  return false;
+}
+
 /// The paths are the shortest ones: they need not have what came before another path to the same
 /// state. And they have no times.
 bool is_judged(const Goal& goal) {
@@ -154,6 +171,10 @@ void compare(const VerifyCase& sample, oracle::Statistics& statistics) {
     const PlainModel model(catalog, {group}, assumptions);
     if (model.is_excluded(model.first_state())) return statistics.count("excluded");
     if (!run_group(model, watch)) return statistics.count("too many states");
+  }
+  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+    const PlainModel model(catalog, {}, assumptions, {variable});
+    if (model.is_excluded(model.first_state())) return statistics.count("excluded");
   }
   const GoalProof proof = prove_unreachable(catalog, goals, assumptions, {});
   demand(!proof.error, "an error");
@@ -172,6 +193,11 @@ void compare(const VerifyCase& sample, oracle::Statistics& statistics) {
         std::none_of(catalog.fitting_values.begin(), catalog.fitting_values.end(),
                      [&](const FittingValue& one) { return one.variable == goal.variable; });
     demand(is_met || is_unreachable || is_of_free_variable, "nothing meets it: " + text);
+    if (is_of_free_variable) {
+      demand(is_unreachable != may_have(catalog, assumptions, goal), "of a free variable: " + text);
+      statistics.count(is_unreachable ? "free, unreachable" : "free, reachable");
+      if (!is_met && !is_unreachable) continue;
+    }
     statistics.count(is_met ? "met" : "unreachable");
     if (is_unreachable) {
       const std::string reason =

@@ -98,6 +98,8 @@ class Names {
         move.subject = to_.tasks[*found].catalog_index;
         return move;
       }
+      case Move::Kind::together:
+        return joint_move(move);
       case Move::Kind::variable: {
         const auto found = value({move.subject, static_cast<std::uint32_t>(move.choice)});
         if (!found) return std::nullopt;
@@ -130,6 +132,10 @@ class Names {
     for (const BehaviorId one : from.behaviors) {
       if (const auto id = behavior(one)) result.behaviors.push_back(*id);
     }
+    result.listed_for_faults.clear();
+    for (const BehaviorId one : from.listed_for_faults) {
+      if (const auto id = behavior(one)) result.listed_for_faults.push_back(*id);
+    }
     result.never.clear();
     for (const SituationPart& entry : from.never) {
       const SituationPart translated = part(entry);
@@ -138,11 +144,53 @@ class Names {
         result.never.push_back(translated);
       }
     }
+    for (std::vector<std::uint32_t>& list : result.together) {
+      std::vector<std::uint32_t> known;
+      for (const std::uint32_t one : list) {
+        if (const auto found = variable(one)) known.push_back(*found);
+      }
+      std::sort(known.begin(), known.end());
+      list = std::move(known);
+    }
     result.initially = part(from.initially);
     return result;
   }
 
+  /// Of which `together` moves are about; before any is translated.
+  void take(const Assumptions& of_from, const Assumptions& of_to) {
+    of_from_ = &of_from;
+    of_to_ = &of_to;
+  }
+
+  /// The variables that behaviors of these groups name.
+  [[nodiscard]] std::set<std::uint32_t> variables(const std::vector<GroupId>& groups) const {
+    std::set<std::uint32_t> known;
+    for (const FittingValue& fitting : from_.fitting_values) {
+      if (!contains(groups, from_.group_of(fitting.behavior))) continue;
+      if (const auto found = variable(fitting.variable)) known.insert(*found);
+    }
+    return known;
+  }
+
  private:
+  [[nodiscard]] std::optional<Move> joint_move(Move move) const {
+    std::vector<VariableValue> values;
+    const auto of_from = combinations_of(from_, of_from_->together.at(move.subject));
+    for (const VariableValue& one : of_from.at(static_cast<std::size_t>(move.choice))) {
+      const auto found = value(one);
+      if (!found) return std::nullopt;
+      values.push_back(*found);
+    }
+    const auto all = combinations_of(to_, of_to_->together.at(move.subject));
+    const auto place = std::find_if(all.begin(), all.end(), [&](const auto& other) {
+      return std::all_of(other.begin(), other.end(),
+                         [&](const VariableValue& one) { return contains(values, one); });
+    });
+    if (place == all.end()) return std::nullopt;
+    move.choice = static_cast<std::int32_t>(place - all.begin());
+    return move;
+  }
+
   [[nodiscard]] SituationPart part(const SituationPart& from) const {
     SituationPart result;
     for (const VariableValue& one : from.variables) {
@@ -157,6 +205,8 @@ class Names {
   const CompiledCatalog& from_;
   const CompiledCatalog& to_;
   const PlainRenames renames_;
+  const Assumptions* of_from_ = nullptr;
+  const Assumptions* of_to_ = nullptr;
 };
 
 /// What happens in one of two catalogs, as far as it is about what both have, in the names of the
@@ -343,8 +393,8 @@ class PairSearch {
         to_new_(to_new),
         old_words_(old_words),
         new_words_(new_words),
-        old_(old_catalog, groups.of_old, old_assumptions),
-        new_(new_catalog, groups.of_new, new_assumptions) {}
+        old_(old_catalog, groups.of_old, old_assumptions, to_old.variables(groups.of_new)),
+        new_(new_catalog, groups.of_new, new_assumptions, to_new.variables(groups.of_old)) {}
 
   [[nodiscard]] bool run(std::uint64_t max_states, PlainComparison& result) {
     Node first{new_.first_state(), old_.first_state(), 0, {}, 0};
@@ -548,16 +598,18 @@ PlainComparison compare_plainly(const CompiledCatalog& old_catalog,
                                 std::uint64_t max_states, const PlainScope& scope) {
   PlainComparison result;
   result.is_complete = true;
-  const Names to_new(old_catalog, new_catalog, scope.renames);
-  const Names to_old(new_catalog, old_catalog,
-                     {inverse(scope.renames.tasks), inverse(scope.renames.behaviors),
-                      inverse(scope.renames.variables)});
+  Names to_new(old_catalog, new_catalog, scope.renames);
+  Names to_old(new_catalog, old_catalog,
+               {inverse(scope.renames.tasks), inverse(scope.renames.behaviors),
+                inverse(scope.renames.variables)});
   const CommonWords old_words(old_catalog, new_catalog, to_new, &to_new);
   const CommonWords new_words(new_catalog, new_catalog, to_old, nullptr);
   const QuietCatalog quiet_old(old_catalog, to_new);
   const QuietCatalog quiet_new(new_catalog, to_old);
   const Assumptions of_old = to_old.assumptions(assumptions);
   const Assumptions of_new = to_new.assumptions(of_old);
+  to_new.take(of_old, of_new);
+  to_old.take(of_new, of_old);
   for (const Groups& groups : join_groups(old_catalog, new_catalog, old_words, new_words)) {
     PairSearch search(quiet_old.catalog, quiet_new.catalog, groups, of_old, of_new, to_old, to_new,
                       old_words, new_words, scope);

@@ -55,8 +55,9 @@ TEST(PlainExploration, CountsOneTask) {
 // States, by what runs and what is in the queue:
 //   0 nothing, R         start A -> 1, due -> 2
 //   1 A                  start A, stop A -> 0, success -> 0, failure -> 0
-//   2 R                  start A -> 1, failure of R -> 3 (its own finish: R does not join the
-//   queue) 3 nothing            start A -> 1
+//   2 R                  start A -> 1, failure of R -> 3 (its own end: R does not join the
+//                        queue), and if it may be stopped, stop R -> 3
+//   3 nothing            start A -> 1
 TEST(PlainExploration, CountsReactiveTask) {
   const CompiledCatalog catalog = compile(R"(
 tasks:
@@ -72,13 +73,20 @@ exclusivity_constraints:
   settled.kind = Property::Kind::never;
   settled.condition.stopped = {TaskId(0), TaskId(1)};
   settled.settled = true;
-  const Exploration result = explore_all(catalog, default_assumptions(catalog), {&settled});
+  Assumptions assumptions = default_assumptions(catalog);
+  Exploration result = explore_all(catalog, assumptions, {&settled});
   EXPECT_EQ(result.states_at_depth, (Counts{1, 2, 1}));
   EXPECT_EQ(result.transitions, 9U);
   EXPECT_EQ(result.runs, (Depths{{0, 1}, {1, 1}}));
   EXPECT_TRUE(result.together.empty());
   EXPECT_EQ(result.verdicts.at(0).script,
             (std::vector<Move>{{Move::Kind::due, 0, 0}, {Move::Kind::failure, 1, 0}}));
+  assumptions.stop.push_back(catalog.task_ids[1]);
+  result = explore_all(catalog, assumptions, {&settled});
+  EXPECT_EQ(result.states_at_depth, (Counts{1, 2, 1}));
+  EXPECT_EQ(result.transitions, 10U);
+  EXPECT_EQ(result.verdicts.at(0).script,
+            (std::vector<Move>{{Move::Kind::due, 0, 0}, {Move::Kind::stop, 1, 0}}));
 }
 
 // R and A exclude one another by what they require. States, by what runs, queue, waiting:
@@ -148,6 +156,78 @@ TEST(PlainExploration, LeavesOutExcludedSituations) {
   EXPECT_EQ(result.transitions, 4U);
   // The other group has none of these variables, so nothing is excluded: one state.
   EXPECT_EQ(explore_plainly(catalog, {GroupId(1)}, assumptions, {}, most_states).states, 1U);
+}
+
+// Nothing starts. The group of A knows V, that of B knows X and, by an entry of `never`, W. Another
+// entry ties V and W: (V, W, X) without (-, 1, 1) and (1, 1, -), five of eight.
+TEST(PlainExploration, AddsWhatNeverTiesToTheState) {
+  const CompiledCatalog catalog = compile(R"(
+situation: [{variable: V}, {variable: W}, {variable: X}]
+behaviors:
+- {behavior: A_BY_V, task: A, situation: {V: true}}
+- {behavior: B_BY_X, task: B, situation: {X: true}}
+)");
+  Assumptions assumptions;
+  assumptions.variables = {0, 1, 2};
+  assumptions.never.push_back({{{1, 1}, {2, 1}}, {}});
+  const auto explore_group = [&](std::uint32_t group) {
+    return explore_plainly(catalog, {GroupId(group)}, assumptions, {}, most_states);
+  };
+  // V alone; W and X but for both.
+  EXPECT_EQ(explore_group(0).states_at_depth, (Counts{1, 1}));
+  EXPECT_EQ(explore_group(1).states_at_depth, (Counts{1, 2}));
+  assumptions.never.push_back({{{0, 1}, {1, 1}}, {}});
+  for (const std::uint32_t group : {0U, 1U}) {
+    EXPECT_EQ(explore_group(group).states_at_depth, (Counts{1, 3, 1}));
+    // Of the first state, of the three with one of them, of V with X.
+    EXPECT_EQ(explore_group(group).transitions, 3U + 2 + 1 + 2 + 2);
+  }
+  // The availability of a behavior of the other group, which may change.
+  assumptions.never = {{{{0, 1}}, {{BehaviorId(1), false}}}};
+  EXPECT_EQ(explore_group(0).states, 2U);
+  assumptions.behaviors = {BehaviorId(1)};
+  EXPECT_EQ(explore_group(0).states_at_depth, (Counts{1, 2}));
+}
+
+// V and W change one by one, or both at once: four situations, three moves in each.
+TEST(PlainExploration, ChangesVariablesTogether) {
+  const CompiledCatalog catalog = compile(two_variables);
+  Assumptions assumptions;
+  assumptions.variables = {0, 1};
+  assumptions.together = {{0, 1}};
+  Property both;
+  both.kind = Property::Kind::reachable;
+  both.condition.situation.variables = {{0, 1}, {1, 1}};
+  const auto explore_group = [&](std::uint32_t group) {
+    return explore_plainly(catalog, {GroupId(group)}, assumptions, {&both}, most_states);
+  };
+  Exploration result = explore_group(0);
+  EXPECT_EQ(result.states_at_depth, (Counts{1, 3}));
+  EXPECT_EQ(result.transitions, 12U);
+  EXPECT_EQ(result.verdicts.at(0).script, (std::vector<Move>{{Move::Kind::together, 0, 3}}));
+  assumptions.never = {{{{0, 0}, {1, 1}}, {}}, {{{0, 1}, {1, 0}}, {}}};
+  result = explore_group(0);
+  EXPECT_EQ(result.states_at_depth, (Counts{1, 1}));
+  EXPECT_EQ(result.transitions, 2U);
+  assumptions.together.clear();
+  EXPECT_EQ(explore_group(0).states, 1U);
+}
+
+TEST(PlainExploration, LetsOnlySomeBehaviorsFail) {
+  const CompiledCatalog catalog =
+      compile("behaviors: [{behavior: A_BY, task: A}, {behavior: A_TOO, task: A}]");
+  Assumptions assumptions;
+  assumptions.faults = 2;
+  EXPECT_EQ(explore_all(catalog, assumptions).states_at_depth, (Counts{1, 2, 1}));
+  assumptions.listed_for_faults = {BehaviorId(1)};
+  EXPECT_EQ(explore_all(catalog, assumptions).states_at_depth, (Counts{1, 1}));
+  assumptions.only_listed_fail = true;
+  Property faulty;
+  faulty.kind = Property::Kind::reachable;
+  faulty.condition.faulty = {BehaviorId(0)};
+  const Exploration result = explore_all(catalog, assumptions, {&faulty});
+  EXPECT_EQ(result.states_at_depth, (Counts{1, 1}));
+  EXPECT_EQ(result.verdicts.at(0).result, Verdict::Result::violated);
 }
 
 TEST(PlainExploration, RefusesAnExcludedFirstState) {

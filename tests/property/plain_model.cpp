@@ -84,11 +84,29 @@ bool is_active(const Snapshot& state, BehaviorId behavior) {
                      [behavior](const auto& entry) { return entry.first == behavior; });
 }
 
-void handle_move(const CompiledCatalog& catalog, const Move& move, Coordinator& coordinator) {
+std::vector<std::vector<VariableValue>> combinations_of(
+    const CompiledCatalog& catalog, const std::vector<std::uint32_t>& variables) {
+  std::vector<std::vector<VariableValue>> all(1);
+  for (const std::uint32_t variable : variables) {
+    std::vector<std::vector<VariableValue>> longer;
+    for (const auto& values : all) {
+      for (std::uint32_t value = 0; value < catalog.variables[variable].value_count; ++value) {
+        longer.push_back(values);
+        longer.back().push_back({variable, value});
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+void handle_move(const CompiledCatalog& catalog, const Assumptions& assumptions, const Move& move,
+                 Coordinator& coordinator) {
   Event event;
   event.subject = move.subject;
   const Availability own{move.subject, move.choice != 0};
   const VariableValue value{move.subject, static_cast<std::uint32_t>(move.choice)};
+  std::vector<VariableValue> values;
   switch (move.kind) {
     case Move::Kind::start:
       event.verb = Verb::start;
@@ -121,6 +139,12 @@ void handle_move(const CompiledCatalog& catalog, const Move& move, Coordinator& 
       event.verb = Verb::situation;
       event.situation = std::span(&own, 1);
       break;
+    case Move::Kind::together:
+      values = combinations_of(catalog, assumptions.together.at(move.subject))
+                   .at(static_cast<std::size_t>(move.choice));
+      event.verb = Verb::situation;
+      event.variables = values;
+      break;
     case Move::Kind::due:
       demand(coordinator.next_due() == coordinator.now(), "nothing is due");
       demand(coordinator.settle() == Coordinator::Status::ok, coordinator.internal_error());
@@ -146,8 +170,15 @@ PlainModel::PlainModel(const CompiledCatalog& catalog, std::vector<GroupId> grou
       if (!contains(variables_, fitting.variable)) variables_.push_back(fitting.variable);
     }
   }
+  while (add_tied()) {
+  }
   std::sort(variables_.begin(), variables_.end());
-  const auto is_fixed = [&](const SituationPart& part) {
+  const auto index_of = [&](BehaviorId behavior) {
+    return catalog.behaviors[behavior].catalog_index;
+  };
+  std::sort(own_.begin(), own_.end(),
+            [&](BehaviorId a, BehaviorId b) { return index_of(a) < index_of(b); });
+  const auto is_known = [&](const SituationPart& part) {
     return std::all_of(part.variables.begin(), part.variables.end(),
                        [&](const VariableValue& entry) {
                          return contains(variables_, entry.variable) ||
@@ -155,12 +186,37 @@ PlainModel::PlainModel(const CompiledCatalog& catalog, std::vector<GroupId> grou
                        }) &&
            std::all_of(part.behaviors.begin(), part.behaviors.end(),
                        [&](const SituationPart::Own& entry) {
-                         return contains(behaviors_, entry.behavior) ||
+                         return contains(own_, entry.behavior) ||
                                 !contains(assumptions.behaviors, entry.behavior);
                        });
   };
   std::copy_if(assumptions.never.begin(), assumptions.never.end(), std::back_inserter(never_),
-               is_fixed);
+               is_known);
+}
+
+/// Adds what an entry of `never` names together with something in the state. False: nothing is new.
+bool PlainModel::add_tied() {
+  const std::size_t before = variables_.size() + own_.size();
+  for (const SituationPart& part : assumptions_.never) {
+    const bool is_about_state =
+        std::any_of(
+            part.variables.begin(), part.variables.end(),
+            [&](const VariableValue& entry) { return contains(variables_, entry.variable); }) ||
+        std::any_of(
+            part.behaviors.begin(), part.behaviors.end(),
+            [&](const SituationPart::Own& entry) { return contains(own_, entry.behavior); });
+    if (!is_about_state) continue;
+    for (const VariableValue& entry : part.variables) {
+      if (!contains(variables_, entry.variable)) variables_.push_back(entry.variable);
+    }
+    for (const SituationPart::Own& entry : part.behaviors) {
+      if (contains(own_, entry.behavior) || !contains(assumptions_.behaviors, entry.behavior)) {
+        continue;
+      }
+      own_.push_back(entry.behavior);
+    }
+  }
+  return variables_.size() + own_.size() > before;
 }
 
 bool PlainModel::has_group(GroupId group) const { return contains(groups_, group); }
@@ -203,7 +259,7 @@ void PlainModel::add_starts(const Snapshot& state, std::vector<Move>& moves) con
   for (const TaskId task : tasks_) {
     const Snapshot::RunningTask* const entry = find_running(state, task);
     if (!contains(assumptions_.stop, task) || entry == nullptr) continue;
-    if (!entry->request || entry->request->priority < 1) continue;
+    if (!entry->request) continue;
     moves.push_back({Move::Kind::stop, catalog_.tasks[task].catalog_index, 0});
   }
 }
@@ -231,6 +287,8 @@ void PlainModel::add_finishes(const Snapshot& state, std::vector<Move>& moves) c
 void PlainModel::add_faults(const Snapshot& state, std::vector<Move>& moves) const {
   for (const BehaviorId behavior : behaviors_) {
     if (contains(state.faulty, behavior) || state.faulty.size() >= assumptions_.faults) continue;
+    const bool is_listed = contains(assumptions_.listed_for_faults, behavior);
+    if (is_listed != assumptions_.only_listed_fail) continue;
     moves.push_back({Move::Kind::fault, catalog_.behaviors[behavior].catalog_index, 0});
   }
   for (const BehaviorId behavior : behaviors_) {
@@ -258,6 +316,28 @@ void PlainModel::add_situations(const Snapshot& state, std::vector<Move>& moves)
     moves.push_back(
         {Move::Kind::own, catalog_.behaviors[behavior].catalog_index, available ? 1 : 0});
   }
+  for (std::uint32_t list = 0; list < assumptions_.together.size(); ++list) {
+    const auto all = combinations_of(catalog_, assumptions_.together[list]);
+    for (std::size_t number = 0; number < all.size(); ++number) {
+      if (!may_change_to(state, all[number])) continue;
+      moves.push_back({Move::Kind::together, list, static_cast<std::int32_t>(number)});
+    }
+  }
+}
+
+/// Whether these values, and no fewer than two of the state, are others, and may be.
+bool PlainModel::may_change_to(const Snapshot& state,
+                               const std::vector<VariableValue>& values) const {
+  Snapshot next = state;
+  std::size_t changes = 0;
+  for (const VariableValue& value : values) {
+    if (state.variables[value.variable] == value.value) continue;
+    if (!contains(variables_, value.variable)) return false;
+    if (!contains(assumptions_.variables, value.variable)) return false;
+    next.variables[value.variable] = value.value;
+    ++changes;
+  }
+  return changes >= 2 && !is_excluded(next);
 }
 
 Step PlainModel::step(const Snapshot& state, const Move& move,
@@ -274,7 +354,7 @@ Step PlainModel::step(const Snapshot& state, const Move& move,
     // Nothing is due before the first set, which is due then.
     demand(coordinator.advance_to(1) == Coordinator::Status::ok, coordinator.internal_error());
   }
-  handle_move(catalog_, move, coordinator);
+  handle_move(catalog_, assumptions_, move, coordinator);
   const Snapshot saved = coordinator.snapshot();
   Step step;
   step.next = as_state(saved);

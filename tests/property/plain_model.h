@@ -69,17 +69,20 @@ class PlainModel {
   /// Those of the groups, in catalog order.
   [[nodiscard]] const std::vector<TaskId>& tasks() const { return tasks_; }
   [[nodiscard]] const std::vector<BehaviorId>& behaviors() const { return behaviors_; }
-  /// Those that behaviors of the groups name, in catalog order.
+  /// Those of the state, in catalog order.
   [[nodiscard]] const std::vector<std::uint32_t>& variables() const { return variables_; }
 
  private:
   [[nodiscard]] bool has_group(GroupId group) const;
   /// Without what stands in it.
   [[nodiscard]] bool holds_by_itself(const StateCondition& condition, const Snapshot& state) const;
+  bool add_tied();
   void add_starts(const Snapshot& state, std::vector<Move>& moves) const;
   void add_finishes(const Snapshot& state, std::vector<Move>& moves) const;
   void add_faults(const Snapshot& state, std::vector<Move>& moves) const;
   void add_situations(const Snapshot& state, std::vector<Move>& moves) const;
+  [[nodiscard]] bool may_change_to(const Snapshot& state,
+                                   const std::vector<VariableValue>& values) const;
 
   const CompiledCatalog& catalog_;
   const Assumptions& assumptions_;
@@ -87,8 +90,8 @@ class PlainModel {
   std::vector<TaskId> tasks_;
   std::vector<BehaviorId> behaviors_;
   std::vector<std::uint32_t> variables_;
-  std::vector<BehaviorId> own_;       ///< those of the groups whose own(b) may change
-  std::vector<SituationPart> never_;  ///< without those that exclude nothing
+  std::vector<BehaviorId> own_;       ///< those whose own(b) is part of the state
+  std::vector<SituationPart> never_;  ///< without those about what is not part of it
 };
 
 /// The entry of a task that runs, or null.
@@ -97,6 +100,11 @@ class PlainModel {
 
 /// Handles one move at the present instant, for which the first set is due if the move is that.
 /// Throws std::runtime_error if the coordinator fails.
-void handle_move(const CompiledCatalog& catalog, const Move& move, Coordinator& coordinator);
+void handle_move(const CompiledCatalog& catalog, const Assumptions& assumptions, const Move& move,
+                 Coordinator& coordinator);
+
+/// Of some variables, all values that they may have together, in the order of values.
+[[nodiscard]] std::vector<std::vector<VariableValue>> combinations_of(
+    const CompiledCatalog& catalog, const std::vector<std::uint32_t>& variables);
 
 }  // namespace cbc::plain

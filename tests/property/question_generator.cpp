@@ -89,6 +89,12 @@ class QuestionGenerator {
     assumptions.failures = random_.percent(80);
     static const std::vector<std::uint32_t> faults = {0, 0, 0, 1, 1, 2};
     assumptions.faults = random_.pick(faults);
+    if (random_.percent(30)) {
+      assumptions.only_listed_fail = random_.percent(50);
+      assumptions.listed_for_faults.assign(catalog_.behavior_ids.begin(),
+                                           catalog_.behavior_ids.end());
+      keep_some(assumptions.listed_for_faults, 40);
+    }
     keep_some(assumptions.variables, 85);
     if (random_.percent(45)) {
       for (const BehaviorId behavior : catalog_.behavior_ids) {
@@ -98,6 +104,11 @@ class QuestionGenerator {
     if (random_.percent(40)) {
       const std::size_t wanted = 1 + random_.below(2);
       for (std::size_t i = 0; i < wanted; ++i) add_never();
+    }
+    if (random_.percent(25)) add_coupling();
+    if (random_.percent(40)) {
+      const std::size_t wanted = 1 + random_.below(2);
+      for (std::size_t i = 0; i < wanted; ++i) add_together();
     }
     if (random_.percent(35)) {
       const std::size_t wanted = 1 + random_.below(2);
@@ -149,6 +160,34 @@ class QuestionGenerator {
     if (!part.variables.empty() || !part.behaviors.empty()) {
       question_.assumptions.never.push_back(part);
     }
+  }
+
+  /// Variables of the whole catalog, in catalog order; none if too few may change.
+  std::vector<std::uint32_t> draw_variables(std::size_t count) {
+    std::vector<std::uint32_t> variables = question_.assumptions.variables;
+    if (variables.size() < count) return {};
+    random_.shuffle(variables);
+    variables.resize(count);
+    std::sort(variables.begin(), variables.end());
+    return variables;
+  }
+
+  /// Two variables that have their first values at the same time only.
+  void add_coupling() {
+    const std::vector<std::uint32_t> variables = draw_variables(2);
+    if (variables.empty()) return;
+    for (std::uint32_t a = 0; a < catalog_.variables[variables[0]].value_count; ++a) {
+      for (std::uint32_t b = 0; b < catalog_.variables[variables[1]].value_count; ++b) {
+        if ((a == 0) == (b == 0)) continue;
+        question_.assumptions.never.push_back({{{variables[0], a}, {variables[1], b}}, {}});
+      }
+    }
+    if (random_.percent(50)) question_.assumptions.together.push_back(variables);
+  }
+
+  void add_together() {
+    std::vector<std::uint32_t> variables = draw_variables(2 + random_.below(2));
+    if (!variables.empty()) question_.assumptions.together.push_back(std::move(variables));
   }
 
   void add_initial() {

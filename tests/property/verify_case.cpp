@@ -59,6 +59,8 @@ class Writer {
         return value({move.subject, static_cast<std::uint32_t>(move.choice)});
       case Move::Kind::own:
         return "own " + behavior() + (move.choice != 0 ? " true" : " false");
+      case Move::Kind::together:
+        return "together " + std::to_string(move.subject) + " " + std::to_string(move.choice);
       case Move::Kind::due:
         return "due";
     }
@@ -150,12 +152,22 @@ class Writer {
     for (const TaskId one : assumptions.stop) text += " " + task(one);
     text += assumptions.successes ? "\nsuccesses" : "\nno successes";
     text += assumptions.failures ? ", failures" : ", no failures";
-    text += ", faults " + std::to_string(assumptions.faults) + "\nchange";
+    text += ", faults " + std::to_string(assumptions.faults);
+    if (assumptions.only_listed_fail) text += " only";
+    if (!assumptions.only_listed_fail && !assumptions.listed_for_faults.empty()) text += " but";
+    for (const BehaviorId one : assumptions.listed_for_faults) text += " " + behavior(one);
+    text += "\nchange";
     for (const std::uint32_t variable : assumptions.variables) {
       text += " " + std::string(catalog_.name_of_variable(variable));
     }
     for (const BehaviorId one : assumptions.behaviors) text += " " + behavior(one);
     for (const SituationPart& entry : assumptions.never) text += "\nnever" + part(entry);
+    for (const auto& list : assumptions.together) {
+      text += "\ntogether";
+      for (const std::uint32_t variable : list) {
+        text += " " + std::string(catalog_.name_of_variable(variable));
+      }
+    }
     return text + "\ninitially" + part(assumptions.initially) + "\n";
   }
 

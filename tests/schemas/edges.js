@@ -15,6 +15,9 @@ tasks:
 - task: LOCALIZE
   execution_goal: keep_running
   start_on_request: FALSE
+situation:
+- variable: LIGHT
+- variable: WIND
 `;
 
 const behavior = (text) => `behaviors: [{behavior: GPS, task: LOCALIZE, ${text}}]`;
@@ -278,6 +281,12 @@ const properties = {
     assume('start: {HOVER: [2, 1], LOCALIZE: 3}, successes: No, failures: true, faults: 2'),
     assume('start: ~, stop: ~, successes: ~, failures: ~, faults: ~, situation: ~, never: ~'),
     assume('start: {}, never: []'),
+    assume('faults: {most: 2, of: [GPS]}'),
+    assume('faults: {most: 0, of: ~, except: [GPS], x-why: fail-safe}'),
+    assume('faults: {most: 1}'),
+    assume('together: ~'),
+    assume('together: []'),
+    assume('together: [[LIGHT, WIND], [WIND, LIGHT]]'),
     assume('start: all'),
     property('can_start: HOVER'),
     property('can_start: HOVER, priority: 2147483647, name: 7, x-why: because'),
@@ -317,6 +326,22 @@ const properties = {
     assume('successes: 1'),
     assume('faults: -1'),
     assume('faults: 0.5'),
+    assume('together: [LIGHT, WIND]'),
+    assume('together: {LIGHT: WIND}'),
+    assume('together: [[]]'),
+    assume('together: [[LIGHT]]'),
+    assume('together: [[LIGHT, LIGHT]]'),
+    assume('together: [~]'),
+    assume('faults: [GPS]'),
+    assume('faults: {}'),
+    assume('faults: {of: [GPS]}'),
+    assume('faults: {most: -1}'),
+    assume('faults: {most: ~, of: [GPS]}'),
+    assume('faults: {most: 1, of: []}'),
+    assume('faults: {most: 1, of: [GPS, GPS]}'),
+    assume('faults: {most: 1, except: GPS}'),
+    assume('faults: {most: 1, of: [GPS], except: [HOVER_WITH_MPC]}'),
+    assume('faults: {most: 1, only: [GPS]}'),
     assume('situation: {GPS: true}'),
     assume('never: {GPS: false}'),
     assume('never: [{}]'),

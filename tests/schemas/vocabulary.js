@@ -95,7 +95,7 @@ function isStop(object) {
 function isOptional(object, name) {
   if (name === 'task') return 'verb' in object; // of a finish; not of what is about tasks
   if (['conflict', 'message'].includes(name)) return isStop(object);
-  if (name === 'together') return 'constraints' in object; // of a summary; not of a pair
+  if (name === 'together') return 'constraints' in object || 'never' in object; // not of a pair
   if (name === 'situation') return object.kind === 'behavior' || 'event' in object;
   if (name === 'variables') return !('groups' in object) && !('unconditional' in object);
   if (name === 'behavior') return ['minimum_decided', 'minimum_removed', 'performance'].includes(object.kind);
@@ -111,6 +111,9 @@ function isOptional(object, name) {
     'best',
     'complete_order',
     'due',
+    'faults_except',
+    'faults_of',
+    'frozen',
     'in_some_situation',
     'incomplete',
     'parameters',

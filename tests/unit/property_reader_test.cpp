@@ -1,5 +1,6 @@
 #include "core/property/property_reader.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -94,7 +95,13 @@ std::string describe(const Assumptions& assumptions) {
   for (const TaskId task : assumptions.stop) text += " " + name_of_task(task);
   if (!assumptions.successes) text += "; no successes";
   if (!assumptions.failures) text += "; no failures";
-  text += "; faults " + std::to_string(assumptions.faults) + "; changing";
+  text += "; faults " + std::to_string(assumptions.faults);
+  if (assumptions.only_listed_fail) text += " of";
+  if (!assumptions.only_listed_fail && !assumptions.listed_for_faults.empty()) text += " except";
+  for (const BehaviorId behavior : assumptions.listed_for_faults) {
+    text += " " + name_of_behavior(behavior);
+  }
+  text += "; changing";
   for (const std::uint32_t variable : assumptions.variables) {
     text += " " + std::string(catalog().name_of_variable(variable));
   }
@@ -294,6 +301,129 @@ assume:
       findings("{assume: {start: LAND}, properties: []}"),
       "1:18-22 error wrong-type: 'start' must be a list of tasks, a mapping of tasks to lists "
       "of priorities, or 'all', found 'LAND'\n");
+}
+
+TEST(Assumptions, SayWhatCanBecomeFaulty) {
+  constexpr const char* start = "start HOVER 1 TALK 1 LAND 1; stop HOVER TALK LAND; faults ";
+  constexpr const char* end = "; changing SIGNAL LIGHT; initially";
+  EXPECT_EQ(assuming("faults: {most: 2, of: [SLAM, HOVER_MPC]}"),
+            std::string(start) + "2 of HOVER_MPC SLAM" + end);
+  EXPECT_EQ(assuming("faults: {most: 1, except: [GPS], of: ~}"),
+            std::string(start) + "1 except GPS" + end);
+  EXPECT_EQ(assuming("faults: {most: 3}"), std::string(start) + "3" + end);
+
+  const Assumptions of =
+      read("{assume: {faults: {most: 1, of: [GPS]}}, properties: []}").assumptions;
+  const Assumptions except =
+      read("{assume: {faults: {most: 1, except: [GPS]}}, properties: []}").assumptions;
+  const Assumptions no_faults =
+      read("{assume: {faults: {most: 0, of: [GPS]}}, properties: []}").assumptions;
+  for (const BehaviorId behavior : catalog().behavior_ids) {
+    const bool is_gps = catalog().name_of_behavior(behavior) == "GPS";
+    EXPECT_EQ(can_become_faulty(of, behavior), is_gps);
+    EXPECT_EQ(can_become_faulty(except, behavior), !is_gps);
+    EXPECT_FALSE(can_become_faulty(no_faults, behavior));
+    EXPECT_FALSE(can_become_faulty(default_assumptions(catalog()), behavior));
+  }
+}
+
+TEST(Assumptions, ReportMistakesAboutFaults) {
+  const auto findings_of = [](const std::string& faults) {
+    return findings("properties: []\nassume:\n  faults: " + faults);
+  };
+  EXPECT_EQ(findings_of("[GPS]"),
+            "3:11-12 error wrong-type: 'faults' must be a number of behaviors, or a mapping with "
+            "'most', found a list\n");
+  EXPECT_EQ(findings_of("{of: [GPS]}"),
+            "3:11-12 error missing-key: 'faults' needs 'most': how many behaviors may be faulty at "
+            "a time\n");
+  EXPECT_EQ(findings_of("{mst: 1, of: [GPS]}"),
+            "3:12-15 error unknown-key: unknown key 'mst' in a faults; did you mean 'most'?\n");
+  EXPECT_EQ(findings_of("{most: -1, of: GPS}"),
+            "3:18-20 error invalid-value: 'most' must be an integer from 0 to 2147483647, found "
+            "'-1'\n"
+            "3:26-29 error wrong-type: 'of' must be a list of behaviors, found 'GPS'\n");
+  EXPECT_EQ(findings_of("{most: 1, of: []}"),
+            "3:25-26 error invalid-value: expected at least one behavior in 'of', found an empty "
+            "list\n");
+  EXPECT_EQ(findings_of("{most: 1, except: [GPS, LAND, SLM, GPS]}"),
+            "3:35-39 error undefined-behavior: there is no behavior 'LAND': it is a task; did you "
+            "mean 'LAND_PID'?\n"
+            "3:41-44 error undefined-behavior: there is no behavior 'SLM'; did you mean 'SLAM'?\n"
+            "3:46-49 error invalid-value: 'GPS' is listed twice\n"
+            "  3:30-33 first listed here\n");
+  EXPECT_EQ(findings_of("{most: 1, of: [GPS], except: [SLAM]}"),
+            "3:32-38 error invalid-value: 'faults' takes 'of' or 'except', not both\n"
+            "  3:21-23 'of' is here\n");
+}
+
+TEST(Assumptions, LetVariablesChangeTogether) {
+  const auto lists_of = [](const std::string& text) {
+    std::string lists;
+    for (const auto& list : read("properties: []\nassume: {" + text + "}").assumptions.together) {
+      for (const std::uint32_t variable : list) lists += std::to_string(variable) + " ";
+      lists += "; ";
+    }
+    return lists;
+  };
+  EXPECT_EQ(lists_of("together: [[LIGHT, SIGNAL], [SIGNAL, LIGHT]]"), "0 1 ; 0 1 ; ");
+  EXPECT_EQ(lists_of("together: [], situation: [GPS]"), "");
+  const auto findings_of = [](const std::string& together, const std::string& rest = "") {
+    return findings("properties: []\nassume: {" + rest + "together: " + together + "}");
+  };
+  EXPECT_EQ(findings_of("LIGHT"),
+            "2:20-25 error wrong-type: 'together' must be a list of lists of situation variables, "
+            "found 'LIGHT'\n");
+  EXPECT_EQ(findings_of("[LIGHT, SIGNAL]"),
+            "2:21-26 error wrong-type: 'together' must be lists of situation variables, found "
+            "'LIGHT'\n"
+            "2:28-34 error wrong-type: 'together' must be lists of situation variables, found "
+            "'SIGNAL'\n");
+  EXPECT_EQ(findings_of("[[], [SIGNAL]]"),
+            "2:21-22 error invalid-value: expected at least two variables that change at once, "
+            "found none\n"
+            "2:25-26 error invalid-value: expected at least two variables that change at once, "
+            "found one\n");
+  EXPECT_EQ(findings_of("[[SIGNAL, GPS, LIGTH, SIGNAL]]"),
+            "2:30-33 error invalid-value: 'together' lists situation variables, found behavior "
+            "'GPS'\n"
+            "2:35-40 error undeclared-situation: there is no behavior or situation variable "
+            "'LIGTH'; did you mean 'LIGHT'?\n"
+            "2:42-48 error invalid-value: 'SIGNAL' is listed twice\n"
+            "  2:22-28 first listed here\n");
+  EXPECT_EQ(findings_of("[[SIGNAL, LIGHT]]", "situation: [LIGHT], "),
+            "2:42-48 error invalid-value: 'SIGNAL' never changes, as 'situation' of 'assume' does "
+            "not list it\n");
+}
+
+TEST(Assumptions, SayWhichVariablesNeverKeeps) {
+  const auto frozen_by = [](const std::string& assume) {
+    const Result result = read_any("properties: []\nassume: {" + assume + "}");
+    return result.file ? result.file->assumptions.frozen : std::vector<std::uint32_t>{};
+  };
+  using Variables = std::vector<std::uint32_t>;
+  // There is no situation with another value, so what is proved of it is so.
+  EXPECT_EQ(findings("assume: {never: [{SIGNAL: false}]}\nproperties: []"), "");
+  EXPECT_EQ(frozen_by("never: [{SIGNAL: false}]"), Variables{0});
+  constexpr const char* coupled =
+      "never: [{LIGHT: day, SIGNAL: false}, {LIGHT: dusk, SIGNAL: true}, "
+      "{LIGHT: night, SIGNAL: true}]";
+  EXPECT_EQ(findings(std::string("properties: []\nassume: {") + coupled + "}"),
+            "2:18-19 warning impossible-expectation: 'never' keeps 'SIGNAL' and 'LIGHT' from ever "
+            "changing, as it excludes each change of one variable; 'together: [[SIGNAL, LIGHT]]' "
+            "lets several change at once\n"
+            "  2:47-48 as does this\n"
+            "  2:76-77 as does this\n");
+  EXPECT_EQ(findings(std::string("properties: []\nassume: {together: [[LIGHT, SIGNAL]], ") +
+                     coupled + "}"),
+            "");
+  EXPECT_EQ(findings("assume: {never: [{SIGNAL: false}], situation: [LIGHT]}\nproperties: []"), "");
+  EXPECT_EQ(frozen_by(coupled), (Variables{0, 1}));
+  EXPECT_EQ(frozen_by("never: [{SIGNAL: false}], situation: [LIGHT]"), Variables{});
+  // LIGHT changes, but not SIGNAL.
+  EXPECT_EQ(frozen_by("never: [{SIGNAL: false, LIGHT: day}, {SIGNAL: false, LIGHT: dusk}, "
+                      "{SIGNAL: false, LIGHT: night}]"),
+            Variables{0});
 }
 
 // Properties -------------------------------------------------------------------------------------
@@ -506,6 +636,13 @@ TEST(Conditions, MayBeRuledOutByTheAssumptions) {
   EXPECT_EQ(findings_of_property("reachable: {faulty: [GPS, SLAM]}", assume),
             "3:29-33 warning impossible-expectation: this can never hold: 'faults' of 'assume' "
             "allows only 1 at a time\n");
+  EXPECT_EQ(
+      findings_of_property("reachable: {faulty: [GPS]}", "{faults: {most: 1, of: [SLAM]}}"),
+      "3:24-27 warning impossible-expectation: this can never hold: behavior 'GPS' cannot become "
+      "faulty by 'faults' of 'assume'\n");
+  EXPECT_EQ(
+      findings_of_property("reachable: {faulty: [GPS]}", "{faults: {most: 1, except: [SLAM]}}"),
+      "");
   EXPECT_EQ(findings_of_property("reachable: {faulty: [GPS]}"),
             "3:24-27 warning impossible-expectation: this can never hold: no behavior becomes "
             "faulty, as 'faults' of 'assume' is 0\n");

@@ -181,11 +181,18 @@ Assumptions translate(const Assumptions& from, const Translation& to) {
   result.stop = translate(from.stop, to.tasks);
   result.variables = translate(from.variables, to.variables);
   result.behaviors = translate(from.behaviors, to.behaviors);
+  result.listed_for_faults = translate(from.listed_for_faults, to.behaviors);
   result.never.clear();
   for (const SituationPart& part : from.never) {
     bool is_whole = true;
     SituationPart translated = translate(part, to, is_whole);
     if (is_whole) result.never.push_back(std::move(translated));
+  }
+  result.frozen = translate(from.frozen, to.variables);
+  // Moves count the lists.
+  for (std::vector<std::uint32_t>& list : result.together) {
+    list = translate(list, to.variables);
+    std::sort(list.begin(), list.end());
   }
   bool is_whole = true;
   result.initially = translate(from.initially, to, is_whole);

@@ -261,6 +261,11 @@ class Doubts {
                 : concat("'faults' of 'assume' allows only ", assumptions.faults, " at a time"));
       return;
     }
+    for (const NamedBehavior& behavior : claims_.faulty) {
+      if (assumptions.faults == 0 || can_become_faulty(assumptions, behavior.id)) continue;
+      doubt(behavior.range, "behavior " + quote(catalog_.name_of_behavior(behavior.id)) +
+                                " cannot become faulty by 'faults' of 'assume'");
+    }
   }
 
   void check_variable(const ConditionClaims::Situated& wanted, const Assumptions& assumptions) {

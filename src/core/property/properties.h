@@ -27,6 +27,8 @@ struct SituationPart {
   std::vector<Own> behaviors;
 };
 
+inline constexpr std::uint32_t most_values_together = 10'000;
+
 /// The events that may happen, and the first state (docs/verify.md, "Moves"). Lists are in catalog
 /// order.
 struct Assumptions {
@@ -38,11 +40,19 @@ struct Assumptions {
   std::vector<TaskId> stop;  ///< distinct tasks
   bool successes = true;
   bool failures = true;
-  std::uint32_t faults = 0;              ///< the most behaviors that are faulty at a time
+  std::uint32_t faults = 0;  ///< the most behaviors that are faulty at a time
+  /// Only these can become faulty, or all but these; see can_become_faulty().
+  bool only_listed_fail = false;
+  std::vector<BehaviorId> listed_for_faults;
   std::vector<std::uint32_t> variables;  ///< those that may change
   std::vector<BehaviorId> behaviors;     ///< those whose own(b) may change
   std::vector<SituationPart> never;      ///< situations that do not occur
-  SituationPart initially;               ///< what differs from initial values and own(b) true
+  /// Variables that may also change at once, in any way but for what `never` excludes; each list
+  /// has at least two, which may change, and at most `most_values_together` combinations of values.
+  std::vector<std::vector<std::uint32_t>> together;
+  /// Of those that may change: `never` keeps them as they are (find_frozen_variables()).
+  std::vector<std::uint32_t> frozen;
+  SituationPart initially;  ///< what differs from initial values and own(b) true
 };
 
 /// Assumptions, and who states them.
@@ -58,6 +68,18 @@ struct StatedAssumptions {
 /// Of the first state: the value of a situation variable, and own(b) of a behavior.
 [[nodiscard]] std::uint32_t initial_value(const Assumptions& assumptions, std::uint32_t variable);
 [[nodiscard]] bool is_available_at_first(const Assumptions& assumptions, BehaviorId behavior);
+
+[[nodiscard]] bool can_become_faulty(const Assumptions& assumptions, BehaviorId behavior);
+
+// Combinations of values of variables are counted in the order of values, those of the last
+// variable first: 0 0, 0 1, 1 0, 1 1.
+
+/// How many there are; more than `most_values_together` if there are more.
+[[nodiscard]] std::uint32_t count_combinations(const CompiledCatalog& catalog,
+                                               const std::vector<std::uint32_t>& variables);
+[[nodiscard]] std::vector<VariableValue> combination_of(const CompiledCatalog& catalog,
+                                                        const std::vector<std::uint32_t>& variables,
+                                                        std::uint32_t number);
 
 /// What a state satisfies: all parts together.
 struct StateCondition {

@@ -20,7 +20,8 @@ using yaml::Shape;
 
 constexpr Key file_keys[] = {{"catalog"}, {"assume"}, {"initially"}, {"properties"}};
 constexpr Key assumption_keys[] = {{"start"},  {"stop"},      {"successes"}, {"failures"},
-                                   {"faults"}, {"situation"}, {"never"}};
+                                   {"faults"}, {"situation"}, {"never"},     {"together"}};
+constexpr Key fault_keys[] = {{"most"}, {"of"}, {"except"}};
 constexpr Key property_keys[] = {{"name"},  {"can_start"}, {"priority"},      {"always"},
                                  {"never"}, {"reachable"}, {"keeps_running"}, {"always_possible"},
                                  {"when"},  {"settled"},   {"after"},         {"until"},
@@ -30,12 +31,14 @@ constexpr Key condition_keys[] = {{"running"}, {"stopped"},   {"active"},    {"a
                                   {"not"},     {"any"},       {"all"}};
 
 constexpr const Shape* in_file[] = {&assumptions, &property};
+constexpr const Shape* in_assumptions[] = {&faults};
 constexpr const Shape* in_property[] = {&condition};
 
 }  // namespace
 
 const Shape property_file{"a property file", file_keys, nullptr, in_file};
-const Shape assumptions{"an assume", assumption_keys, &property_file};
+const Shape assumptions{"an assume", assumption_keys, &property_file, in_assumptions};
+const Shape faults{"a faults", fault_keys, &assumptions};
 const Shape property{"a property", property_keys, &property_file, in_property, true, {}, true};
 const Shape condition{"a condition", condition_keys, &property, {}, false, {}, true};
 
@@ -47,180 +50,6 @@ namespace {
 using yaml::Fields;
 using yaml::Kind;
 using yaml::Node;
-
-/// Reads what may happen. Lists are brought into catalog order.
-class AssumptionReader {
- public:
-  AssumptionReader(NameIndex& names, Reporter& reporter)
-      : names_(names), catalog_(names.catalog()), reporter_(reporter) {}
-
-  /// The values of the keys `assume` and `initially`; null if there is none. `knows_all`: no other
-  /// key may be one of them, misspelt.
-  Assumptions read(const Node* assume, const Node* initially, bool knows_all) && {
-    out_ = default_assumptions(catalog_);
-    knows_first_ = knows_all;
-    if (initially != nullptr) read_initially(*initially);
-    if (assume != nullptr &&
-        yaml::read_mapping(*assume, "assume", "a mapping", reporter_) != nullptr) {
-      read_assume(*assume);
-    }
-    return std::move(out_);
-  }
-
- private:
-  void read_initially(const Node& node) {
-    const auto situation = read_situation(node, names_, reporter_);
-    if (situation) out_.initially = part_of(*situation, catalog_);
-    knows_first_ &= situation.has_value();
-  }
-
-  void read_assume(const Node& node) {
-    Fields fields(node, shape::assumptions, reporter_);
-    if (const Node* start = fields.find("start")) read_start(*start);
-    if (const Node* stop = fields.find("stop")) read_stop(*stop);
-    read_flag(fields, "successes", out_.successes);
-    read_flag(fields, "failures", out_.failures);
-    if (const Node* faults = fields.find("faults")) {
-      const auto most = yaml::read_integer(*faults, "faults", 0, reporter_);
-      if (most) out_.faults = static_cast<std::uint32_t>(*most);
-    }
-    if (const Node* situation = fields.find("situation")) read_changing(*situation);
-    if (const Node* never = fields.find("never")) read_never(*never);
-    fields.report_unknown(yaml::UnknownKeys::refused);
-  }
-
-  void read_flag(const Fields& fields, std::string_view key, bool& flag) {
-    if (const Node* node = fields.find(key)) {
-      flag = yaml::read_boolean(*node, key, reporter_).value_or(flag);
-    }
-  }
-
-  void read_start(const Node& node) {
-    out_.start.clear();
-    if (node.kind == Kind::mapping) {
-      yaml::report_duplicate_keys(node, reporter_);
-      for (const auto& [key, value] : node.entries) {
-        const auto task = names_.find_task(*key, "start", reporter_, &node);
-        std::vector<std::int32_t> priorities = read_priorities(key->text, *value);
-        if (task) out_.start.push_back({catalog_.task_ids[*task], std::move(priorities)});
-      }
-    } else if (node.kind == Kind::sequence) {
-      for (const TaskId task : read_tasks(node, "start")) out_.start.push_back({task, {1}});
-    } else if (node.text == "all") {
-      for (const TaskId task : catalog_.task_ids) out_.start.push_back({task, {1}});
-    } else {
-      yaml::report_wrong_type(
-          node, "start", "a list of tasks, a mapping of tasks to lists of priorities, or 'all'",
-          reporter_);
-    }
-    std::sort(out_.start.begin(), out_.start.end(),
-              [this](const auto& a, const auto& b) { return place_of(a.task) < place_of(b.task); });
-    out_.stop.clear();
-    for (const Assumptions::Start& start : out_.start) out_.stop.push_back(start.task);
-  }
-
-  std::vector<std::int32_t> read_priorities(std::string_view task, const Node& node) {
-    std::vector<std::int32_t> priorities;
-    if (node.kind == Kind::scalar) {
-      if (const auto priority = yaml::read_integer(node, task, 1, reporter_)) {
-        priorities.push_back(*priority);
-      }
-    } else if (node.kind != Kind::sequence || node.items.empty()) {
-      yaml::report_wrong_type(node, task, "a priority or a list of priorities", reporter_);
-    }
-    ListedNames listed;
-    for (const Node* item : node.items) {
-      const auto priority = yaml::read_integer(*item, task, 1, reporter_);
-      if (priority && listed.add(static_cast<std::uint32_t>(*priority), *item, reporter_)) {
-        priorities.push_back(*priority);
-      }
-    }
-    return priorities;
-  }
-
-  void read_stop(const Node& node) {
-    if (yaml::read_list(node, "stop", "a list of tasks", reporter_) == nullptr) return;
-    out_.stop = read_tasks(node, "stop");
-    std::sort(out_.stop.begin(), out_.stop.end(),
-              [this](TaskId a, TaskId b) { return place_of(a) < place_of(b); });
-  }
-
-  std::vector<TaskId> read_tasks(const Node& list, std::string_view what) {
-    std::vector<TaskId> tasks;
-    ListedNames listed;
-    for (const Node* item : list.items) {
-      const auto task = names_.find_task(*item, what, reporter_, &list);
-      if (task && listed.add(*task, *item, reporter_)) tasks.push_back(catalog_.task_ids[*task]);
-    }
-    return tasks;
-  }
-
-  void read_changing(const Node& node) {
-    constexpr std::string_view expected = "a list of situation variables and behaviors";
-    if (yaml::read_list(node, "situation", expected, reporter_) == nullptr) return;
-    out_.variables.clear();
-    ListedNames variables;
-    ListedNames behaviors;
-    for (const Node* item : node.items) {
-      const auto part = names_.find_part(*item, reporter_, &node);
-      if (!part ||
-          !(part->is_variable ? variables : behaviors).add(part->place, *item, reporter_)) {
-        continue;
-      }
-      if (part->is_variable) {
-        out_.variables.push_back(part->place);
-      } else {
-        out_.behaviors.push_back(catalog_.behavior_ids[part->place]);
-      }
-    }
-    std::sort(out_.variables.begin(), out_.variables.end());
-    std::sort(out_.behaviors.begin(), out_.behaviors.end(), [this](BehaviorId a, BehaviorId b) {
-      return catalog_.behaviors[a].catalog_index < catalog_.behaviors[b].catalog_index;
-    });
-  }
-
-  void read_never(const Node& node) {
-    if (yaml::read_list(node, "never", "a list of situations", reporter_) == nullptr) return;
-    for (const Node* item : node.items) {
-      const auto situation = read_situation(*item, names_, reporter_);
-      if (!situation) continue;
-      if (situation->is_empty()) {
-        reporter_.report(rule::invalid_value, item->range,
-                         "an entry of 'never' must name a variable or a behavior: this one "
-                         "excludes every situation");
-        continue;
-      }
-      const SituationPart part = part_of(*situation, catalog_);
-      if (knows_first_ && is_first(part)) {
-        reporter_.report(rule::invalid_value, item->range,
-                         "this excludes the situation at the beginning; 'initially' sets another "
-                         "one");
-      }
-      out_.never.push_back(part);
-    }
-  }
-
-  [[nodiscard]] bool is_first(const SituationPart& part) const {
-    return std::all_of(part.variables.begin(), part.variables.end(),
-                       [this](VariableValue value) {
-                         return initial_value(out_, value.variable) == value.value;
-                       }) &&
-           std::all_of(part.behaviors.begin(), part.behaviors.end(),
-                       [this](const SituationPart::Own& own) {
-                         return is_available_at_first(out_, own.behavior) == own.available;
-                       });
-  }
-
-  [[nodiscard]] std::uint32_t place_of(TaskId task) const {
-    return catalog_.tasks[task].catalog_index;
-  }
-
-  NameIndex& names_;
-  const CompiledCatalog& catalog_;
-  Reporter& reporter_;
-  Assumptions out_;
-  bool knows_first_ = true;  ///< the situation at the beginning is understood
-};
 
 bool is_invariant(Property::Kind kind) {
   return kind == Property::Kind::always || kind == Property::Kind::never;
@@ -270,9 +99,8 @@ class PropertyReader {
       if (name) file.catalog = *name;
     }
     const std::size_t errors = reporter_.errors();
-    file.assumptions =
-        AssumptionReader(names_, reporter_)
-            .read(fields.find("assume"), fields.find("initially"), !fields.has_unknown());
+    file.assumptions = read_assumptions(fields.find("assume"), fields.find("initially"),
+                                        !fields.has_unknown(), names_, reporter_);
     // What follows from a mistake is not reported.
     if (reporter_.errors() == errors && !fields.has_unknown()) assumptions_ = &file.assumptions;
     if (const Node* properties = fields.find("properties")) {
@@ -464,35 +292,6 @@ class PropertyReader {
 };
 
 }  // namespace
-
-Assumptions default_assumptions(const CompiledCatalog& catalog) {
-  Assumptions assumptions;
-  for (const TaskId task : catalog.task_ids) {
-    if (catalog.tasks[task].start_on_request == 0) continue;
-    assumptions.start.push_back({task, {1}});
-    assumptions.stop.push_back(task);
-  }
-  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
-    assumptions.variables.push_back(variable);
-  }
-  return assumptions;
-}
-
-std::uint32_t initial_value(const Assumptions& assumptions, std::uint32_t variable) {
-  const auto& values = assumptions.initially.variables;
-  const auto found =
-      std::find_if(values.begin(), values.end(),
-                   [variable](const VariableValue& value) { return value.variable == variable; });
-  return found == values.end() ? 0 : found->value;
-}
-
-bool is_available_at_first(const Assumptions& assumptions, BehaviorId behavior) {
-  const auto& behaviors = assumptions.initially.behaviors;
-  const auto found =
-      std::find_if(behaviors.begin(), behaviors.end(),
-                   [behavior](const SituationPart::Own& own) { return own.behavior == behavior; });
-  return found == behaviors.end() || found->available;
-}
 
 std::vector<const StateCondition*> conditions_of(const Property& property) {
   std::vector<const StateCondition*> conditions;

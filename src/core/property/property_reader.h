@@ -18,6 +18,7 @@ namespace cbc::shape {
 
 extern const yaml::Shape property_file;
 extern const yaml::Shape assumptions;
+extern const yaml::Shape faults;
 extern const yaml::Shape property;
 extern const yaml::Shape condition;
 
@@ -38,10 +39,16 @@ namespace cbc {
 /// assumed.
 [[nodiscard]] bool lacks_properties(const yaml::Document& document, const PropertyFile& file);
 
-// Parts of the reader of property files: conditions, and what assumptions share with them.
+// Parts of the reader of property files: assumptions and conditions, and what these share.
 
 /// With the numbers of the compiled catalog in place of those of the file.
 [[nodiscard]] SituationPart part_of(const Situation& situation, const CompiledCatalog& catalog);
+
+/// Reads the values of the keys `assume` and `initially`; null if there is none. `knows_all`: no
+/// other key may be one of them, misspelt. Mistakes are reported; the result may be used only if
+/// there was no error.
+[[nodiscard]] Assumptions read_assumptions(const yaml::Node* assume, const yaml::Node* initially,
+                                           bool knows_all, NameIndex& names, Reporter& reporter);
 
 /// How conditions are checked.
 struct ConditionChecks {

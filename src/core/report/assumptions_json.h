@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "core/compile/catalog_json.h"
 #include "core/property/properties.h"
 #include "core/support/json_description.h"
@@ -26,6 +29,14 @@ inline constexpr auto what_may_change = [](const Assumptions& of, const auto& co
   };
 };
 
+inline constexpr auto names_of_variables = [](const std::vector<std::uint32_t>& places,
+                                              const auto& context) {
+  return [&](const auto& put) {
+    const CompiledCatalog& catalog = catalog_in(context);
+    for (const std::uint32_t place : places) put(catalog.name_of_variable(place));
+  };
+};
+
 /// What describe_assumptions says, with names; the context has the catalog.
 inline constexpr auto assumptions = object(
     "assumptions",
@@ -42,12 +53,31 @@ inline constexpr auto assumptions = object(
                member("failures", boolean, "Whether behaviors fail.", &Assumptions::failures),
                member("faults", count, "How many behaviors may be faulty at a time.",
                       &Assumptions::faults),
+               optional("faults_of", behaviors, "The only behaviors that can become faulty.",
+                        [](const Assumptions& of) {
+                          return of.only_listed_fail ? &of.listed_for_faults : nullptr;
+                        }),
+               optional("faults_except", behaviors, "Behaviors that cannot become faulty.",
+                        [](const Assumptions& of) {
+                          return of.only_listed_fail || of.listed_for_faults.empty()
+                                     ? nullptr
+                                     : &of.listed_for_faults;
+                        }),
                member("situation", names,
                       "The situation variables that may change, and the behaviors that may become "
                       "unavailable.",
                       what_may_change),
                member("never", list(projected(entries_of_part, situation)),
                       "Situations that do not occur.", &Assumptions::never),
+               optional(
+                   "frozen", projected(names_of_variables, names),
+                   "Of the variables that may change: `never` keeps these as they are.",
+                   [](const Assumptions& of) { return of.frozen.empty() ? nullptr : &of.frozen; }),
+               optional("together", list(projected(names_of_variables, names.at_least(2))),
+                        "Variables that may change at once.",
+                        [](const Assumptions& of) {
+                          return of.together.empty() ? nullptr : &of.together;
+                        }),
                member("initially", projected(entries_of_part, situation),
                       "What differs at first from initial values, and from available behaviors.",
                       &Assumptions::initially))));

@@ -159,6 +159,16 @@ std::string describe_priorities(const Assumptions& assumptions) {
   return (words.size() == 1 ? "priority " : "priorities ") + list_with_and(words);
 }
 
+/// "LAND, DOCK and 7 more"
+std::string list_some(std::vector<std::string> names, std::size_t most) {
+  const std::size_t count = names.size();
+  if (count > most) {
+    names.resize(most - 1);
+    names.push_back(fmt::format("{} more", count - names.size()));
+  }
+  return list_with_and(names);
+}
+
 /// Tasks that a script may request, though the assumptions do not: "; LOCALIZE is not".
 std::string describe_unrequested(const CompiledCatalog& catalog, const Assumptions& assumptions) {
   constexpr std::size_t most_names = 5;
@@ -169,12 +179,41 @@ std::string describe_unrequested(const CompiledCatalog& catalog, const Assumptio
     if (!requested.contains(task)) names.push_back(printable(catalog.name_of_task(task)));
   }
   if (names.empty()) return {};
-  const std::size_t count = names.size();
-  if (count > most_names) {
-    names.resize(most_names - 1);
-    names.push_back(fmt::format("{} more", count - names.size()));
+  const bool is_one = names.size() == 1;
+  return fmt::format("; {} {} not", list_some(std::move(names), most_names), is_one ? "is" : "are");
+}
+
+/// "; up to 2 of 5 behaviors faulty at a time"
+std::string describe_faults(const CompiledCatalog& catalog, const Assumptions& assumptions) {
+  if (assumptions.faults == 0) return "; none is faulty";
+  std::string text = fmt::format("; up to {}", assumptions.faults);
+  const std::size_t listed = assumptions.listed_for_faults.size();
+  if (assumptions.only_listed_fail || listed > 0) {
+    const std::size_t all = catalog.behaviors.size();
+    const std::size_t fallible = assumptions.only_listed_fail ? listed : all - listed;
+    text += fmt::format(" of {}", quantity(fallible, "behavior"));
   }
-  return fmt::format("; {} {} not", list_with_and(names), count == 1 ? "is" : "are");
+  return text + " faulty at a time";
+}
+
+/// "FLYING and HEIGHT"; of many some.
+std::string list_variables(const CompiledCatalog& catalog,
+                           const std::vector<std::uint32_t>& variables) {
+  constexpr std::size_t most_names = 5;
+  std::vector<std::string> names;
+  for (const std::uint32_t variable : variables) {
+    names.push_back(printable(catalog.name_of_variable(variable)));
+  }
+  return list_some(std::move(names), most_names);
+}
+
+/// "; FLYING and HEIGHT may change at once"
+std::string describe_together(const CompiledCatalog& catalog, const Assumptions& assumptions) {
+  const std::size_t lists = assumptions.together.size();
+  if (lists == 0) return {};
+  if (lists > 1) return fmt::format("; {} lists of variables may change at once", lists);
+  return fmt::format("; {} may change at once",
+                     list_variables(catalog, assumptions.together.front()));
 }
 
 std::string describe_requests(const CompiledCatalog& catalog, const Assumptions& assumptions) {
@@ -201,16 +240,20 @@ std::string describe_assumptions(const CompiledCatalog& catalog, const StatedAss
           : assumptions.successes                       ? "; behaviors succeed, but do not fail"
           : assumptions.failures                        ? "; behaviors fail, but do not succeed"
                                                         : "; behaviors do not finish";
-  text += assumptions.faults == 0 ? "; none is faulty"
-                                  : fmt::format("; up to {} faulty at a time", assumptions.faults);
+  text += describe_faults(catalog, assumptions);
   const std::size_t variables = catalog.variables.size();
   if (variables > 0) {
-    const std::size_t changing = assumptions.variables.size();
+    const std::size_t changing = assumptions.variables.size() - assumptions.frozen.size();
     text += changing == 0 ? "; no variable changes"
             : changing < variables
                 ? fmt::format("; {} of {} variables change", changing, variables)
                 : std::string(variables == 1 ? "; the variable changes" : "; all variables change");
   }
+  if (!assumptions.frozen.empty()) {
+    text +=
+        fmt::format("; never keeps {} from changing", list_variables(catalog, assumptions.frozen));
+  }
+  text += describe_together(catalog, assumptions);
   if (!assumptions.behaviors.empty()) {
     text += fmt::format("; {} may become unavailable",
                         quantity(assumptions.behaviors.size(), "behavior"));

@@ -358,7 +358,7 @@ class Returns {
   std::map<TaskId, std::vector<StateStore::Number>> starts_from_;
 };
 
-/// Of a variable that no behavior names.
+/// Of a variable that neither a behavior nor `never` names.
 bool may_have(const Assumptions& assumptions, const Goal& goal) {
   return initial_value(assumptions, goal.variable) == goal.value ||
          std::find(assumptions.variables.begin(), assumptions.variables.end(), goal.variable) !=
@@ -403,20 +403,36 @@ GoalProof prove_unreachable(const CompiledCatalog& catalog, std::span<const Goal
     if (options.search.on_progress && !options.search.on_progress(group, 0)) break;
     Returns returns;
     proof.groups[group] =
-        search_goals(catalog, group, assumptions, monitor, nullptr, options.search,
+        search_goals(catalog, {group}, assumptions, monitor, nullptr, options.search,
                      [&](const auto& move) { returns.add(move); });
     proof.error = proof.groups[group].error;
     if (proof.error) return proof;
     for (const TaskId task : returns.find()) monitor.note_return(task);
   }
+  const std::vector<std::uint32_t> bound = bound_variables(catalog, assumptions);
+  for (std::size_t number = 0; number < goals.size(); ++number) {
+    const std::uint32_t variable = goals[number].variable;
+    if (options.group || monitor.met()[number] != 0 || proof.situations.contains(variable) ||
+        !std::binary_search(bound.begin(), bound.end(), variable)) {
+      continue;
+    }
+    const GoalSearchResult& found = proof.situations[variable] =
+        search_goals(catalog, {std::nullopt, variable}, assumptions, monitor, nullptr,
+                     options.search, [](const SeenMove&) {});
+    proof.error = found.error;
+    if (proof.error) return proof;
+  }
   proof.facts = monitor.facts();
   for (std::size_t number = 0; number < goals.size(); ++number) {
     const Goal& goal = goals[number];
     const std::vector<GroupId> groups = groups_of(catalog, goal);
-    const bool is_proven = std::all_of(groups.begin(), groups.end(), [&](GroupId group) {
-      return proof.groups[group].is_complete;
-    });
-    const bool is_free = groups.empty() && may_have(assumptions, goal);
+    const auto situation = proof.situations.find(goal.variable);
+    const bool is_bound = goal.variable != none && situation != proof.situations.end();
+    const bool is_proven =
+        std::all_of(groups.begin(), groups.end(),
+                    [&](GroupId group) { return proof.groups[group].is_complete; }) &&
+        (!is_bound || situation->second.is_complete);
+    const bool is_free = groups.empty() && !is_bound && may_have(assumptions, goal);
     const bool is_met = monitor.met()[number] != 0 && !is_forestalled(catalog, goal, proof.facts);
     if (is_met || !is_proven || is_free) continue;
     proof.unreachable[number] = why_unreachable(catalog, goals, number, assumptions, proof.facts);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +17,8 @@ namespace cbc {
 /// Which goals no mission can meet, whatever its events, as far as the assumptions allow them.
 struct GoalProof {
   std::vector<GoalSearchResult> groups;  ///< by group
+  /// By variable, of those of bound_variables() that have a value which no group shows.
+  std::map<std::uint32_t, GoalSearchResult> situations;
   /// By goal: why no move meets it, if that is proven; otherwise empty. See why_unreachable.
   std::vector<std::string> unreachable;
   GoalFacts facts;  ///< of the groups that are complete

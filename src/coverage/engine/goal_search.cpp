@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "core/script/runner.h"
@@ -98,6 +99,10 @@ void StateReplay::load(const Stepper& stepper) {
     if (stepper.is_denied(behavior)) state_.denied.push_back(model_.behaviors()[behavior].id);
     if (stepper.is_faulty(behavior)) state_.faulty.push_back(model_.behaviors()[behavior].id);
   }
+  for (std::uint32_t flag = 0; flag < layout.own_count; ++flag) {
+    const Model::OwnFlag& own = model_.own_flags()[flag];
+    if (own.behavior == none && cells[layout.own + flag] != 0) state_.denied.push_back(own.id);
+  }
   for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
     const std::uint32_t known = model_.find_variable(variable);
     state_.variables.push_back(known == none ? initial_value(model_.assumptions(), variable)
@@ -121,7 +126,7 @@ void StateReplay::take(const Move& move) {
     // Before the second set.
     static_cast<void>(coordinator_.advance_to(present_instant + 2));
   } else {
-    const Step step = step_of(move);
+    const Step step = step_of(model_.catalog(), model_.assumptions(), move);
     static_cast<void>(coordinator_.handle(event_of(step)));
   }
   gave_way_.clear();
@@ -159,8 +164,9 @@ void StateReplay::on_event(const EventRecord& record) {
 /// does not come.
 class TimeoutRace {
  public:
-  /// The catalog must outlive this object.
-  TimeoutRace(const CompiledCatalog& catalog, GroupId group) : catalog_(catalog), group_(group) {}
+  /// The catalog must outlive this object. `group`: empty if there are no tasks.
+  TimeoutRace(const CompiledCatalog& catalog, std::optional<GroupId> group)
+      : catalog_(catalog), group_(group) {}
 
   /// Notes a move, which the replay has just made.
   void note(const StateReplay& replay, const Move& move);
@@ -171,7 +177,7 @@ class TimeoutRace {
 
  private:
   const CompiledCatalog& catalog_;
-  const GroupId group_;
+  const std::optional<GroupId> group_;
   /// By value that ran and has a timeout: those that have always come first so far, ascending.
   std::map<ValueId, std::vector<ValueId>> sooner_;
   std::vector<ValueId> running_;  ///< after the move; kept for its memory
@@ -187,7 +193,8 @@ void TimeoutRace::note(const StateReplay& replay, const Move& move) {
                      catalog_.tasks[task].catalog_index);
   };
   running_.clear();
-  for (TaskId task = catalog_.group_tasks[group_]; task < catalog_.group_tasks[group_ + 1];
+  if (!group_) return;
+  for (TaskId task = catalog_.group_tasks[*group_]; task < catalog_.group_tasks[*group_ + 1];
        ++task) {
     if (!state.is_running(task)) continue;
     const ValueId value(catalog_.values.begin[task] + state.value_index(task));
@@ -222,7 +229,7 @@ void TimeoutRace::tell(GoalMonitor& monitor) const {
 /// Makes each move of the search once more, and passes on what it did.
 class ReplayVisitor {
  public:
-  ReplayVisitor(const Model& model, GroupId group, GoalMonitor& monitor,
+  ReplayVisitor(const Model& model, std::optional<GroupId> group, GoalMonitor& monitor,
                 const std::vector<std::uint8_t>* unwanted,
                 const std::function<void(const SeenMove&)>& on_move)
       : monitor_(monitor),
@@ -256,21 +263,46 @@ class ReplayVisitor {
 
 }  // namespace
 
-GoalSearchResult search_goals(const CompiledCatalog& catalog, GroupId group,
+std::vector<std::uint32_t> bound_variables(const CompiledCatalog& catalog,
+                                           const Assumptions& assumptions) {
+  std::set<std::uint32_t> named;
+  for (const FittingValue& fitting : catalog.fitting_values) named.insert(fitting.variable);
+  std::set<std::uint32_t> bound;
+  for (const SituationPart& part : assumptions.never) {
+    for (const VariableValue& value : part.variables) bound.insert(value.variable);
+  }
+  std::vector<std::uint32_t> variables;
+  for (const std::uint32_t variable : assumptions.variables) {
+    if (bound.contains(variable) && !named.contains(variable)) variables.push_back(variable);
+  }
+  return variables;
+}
+
+GoalSearchResult search_goals(const CompiledCatalog& catalog, GoalScope scope,
                               const Assumptions& assumptions, GoalMonitor& monitor,
                               const std::vector<std::uint8_t>* unwanted,
                               const GoalSearchOptions& options,
                               const std::function<void(const SeenMove&)>& on_move) {
   GoalSearchResult result;
-  const Model model(catalog, {group}, assumptions);
+  std::vector<GroupId> groups;
+  std::set<std::uint32_t> variables;
+  if (scope.group) {
+    groups.push_back(*scope.group);
+  } else {
+    variables.insert(scope.variable);
+  }
+  const Model model(catalog, groups, assumptions, variables);
+  // What is about no group comes after the last one.
+  const GroupId shown = scope.group.value_or(
+      GroupId(static_cast<std::uint32_t>(std::max<std::size_t>(1, catalog.group_count()) - 1)));
   result.error = model.find_obstacle();
   if (result.error) return result;
   // One state more than may be visited ends the search.
   BreadthFirst search(model.packed_first(), {options.max_states + 1, options.max_memory, 0},
                       [&](const ExplorationProgress& progress) {
-                        return !options.on_progress || options.on_progress(group, progress.states);
+                        return !options.on_progress || options.on_progress(shown, progress.states);
                       });
-  ReplayVisitor visitor(model, group, monitor, unwanted, on_move);
+  ReplayVisitor visitor(model, scope.group, monitor, unwanted, on_move);
   search.run_in_order(visitor);
   result.states = search.store().size();
   result.moves = search.transitions();
@@ -292,6 +324,8 @@ class GraphBuilder {
         assumptions_(assumptions),
         options_(options),
         monitor_(catalog, goals, {}),
+        bound_(bound_variables(catalog, assumptions)),
+        is_met_(goals.size(), 0),
         returns_(catalog.tasks.size(), none) {
     monitor_.take_failures_for_timeouts();
     graph_.goal_count = goals.size();
@@ -311,25 +345,51 @@ class GraphBuilder {
       if (options_.on_progress && !options_.on_progress(group, 0)) break;
       first_state_ = static_cast<std::uint32_t>(graph_.state_count());
       if (group == 0) add_free_variables();
-      const GoalSearchResult result =
-          search_goals(catalog_, group, assumptions_, monitor_, &unwanted_, options_,
-                       [this](const SeenMove& move) { add_move(move); });
-      graph_.error = result.error;
-      if (graph_.error) break;
-      graph_.parts.push_back({group, first_state_, result.is_complete});
-      end_states_before(first_state_ + static_cast<std::uint32_t>(result.states));
+      if (!add_part({group}, {group, first_state_})) break;
     }
+    if (!graph_.error && graph_.parts.size() == catalog_.group_count()) add_bound_variables();
     graph_.facts = monitor_.facts();
     return std::move(graph_);
   }
 
  private:
+  /// False if nothing can be explored.
+  bool add_part(GoalScope scope, GoalGraph::Part part) {
+    const GoalSearchResult result =
+        search_goals(catalog_, scope, assumptions_, monitor_, &unwanted_, options_,
+                     [this](const SeenMove& move) { add_move(move); });
+    graph_.error = result.error;
+    if (graph_.error) return false;
+    part.is_complete = result.is_complete;
+    graph_.parts.push_back(part);
+    end_states_before(first_state_ + static_cast<std::uint32_t>(result.states));
+    return true;
+  }
+
+  /// Values of these that no group shows, as nothing ties them to any.
+  void add_bound_variables() {
+    if (catalog_.group_count() == 0) return;
+    for (const std::uint32_t variable : bound_) {
+      const auto is_open = [&](std::uint32_t goal) {
+        return goals_[goal].variable == variable && unwanted_[goal] == 0 && is_met_[goal] == 0;
+      };
+      bool is_wanted = false;
+      for (std::uint32_t goal = 0; goal < goals_.size(); ++goal) {
+        is_wanted = is_wanted || is_open(goal);
+      }
+      if (!is_wanted) continue;
+      first_state_ = static_cast<std::uint32_t>(graph_.state_count());
+      if (!add_part({std::nullopt, variable}, {GroupId(0), first_state_, false, variable})) return;
+    }
+  }
+
   void add_move(const SeenMove& seen) {
     items_.clear();
     for (std::uint32_t goal = 0; goal < goals_.size(); ++goal) {
       if (monitor_.met()[goal] != 0 && unwanted_[goal] == 0 &&
           is_shown_by(goals_[goal], seen.move)) {
         items_.push_back(goal);
+        is_met_[goal] = 1;
       }
     }
     for (const TaskId task : seen.started) add_return(task, 0);
@@ -344,10 +404,14 @@ class GraphBuilder {
   }
 
   /// A monitor notes the values in each state. A path shows those at its beginning anyway.
-  static bool is_shown_by(const Goal& goal, const Move& move) {
-    return goal.kind != Goal::Kind::variable_value ||
-           (move.kind == Move::Kind::variable && move.subject == goal.variable &&
-            static_cast<std::uint32_t>(move.choice) == goal.value);
+  [[nodiscard]] bool is_shown_by(const Goal& goal, const Move& move) const {
+    if (goal.kind != Goal::Kind::variable_value) return true;
+    if (move.kind != Move::Kind::variable && move.kind != Move::Kind::together) return false;
+    const Step step = step_of(catalog_, assumptions_, move);
+    const auto& values = step.situation.variables;
+    return std::any_of(values.begin(), values.end(), [&](const VariableValue& value) {
+      return value.variable == goal.variable && value.value == goal.value;
+    });
   }
 
   void add_return(TaskId task, std::size_t offset) {
@@ -371,13 +435,14 @@ class GraphBuilder {
     graph_.items.insert(graph_.items.end(), items_.begin(), items_.end());
   }
 
-  /// Variables that no behavior names are no part of any state.
+  /// Variables that neither a behavior nor `never` names are no part of any state.
   void add_free_variables() {
     for (std::uint32_t goal = 0; goal < goals_.size(); ++goal) {
       const std::uint32_t variable = goals_[goal].variable;
       const auto& may_change = assumptions_.variables;
       if (unwanted_[goal] != 0 || variable == none ||
           std::find(may_change.begin(), may_change.end(), variable) == may_change.end() ||
+          std::find(bound_.begin(), bound_.end(), variable) != bound_.end() ||
           std::any_of(catalog_.fitting_values.begin(), catalog_.fitting_values.end(),
                       [&](const FittingValue& one) { return one.variable == variable; })) {
         continue;
@@ -394,10 +459,12 @@ class GraphBuilder {
   const GoalSearchOptions& options_;
   GoalMonitor monitor_;
   GoalGraph graph_;
-  std::vector<std::uint8_t> unwanted_;  ///< by goal: not asked about
-  std::vector<std::uint32_t> returns_;  ///< by task: its goal of returning, if it is wanted
-  std::uint32_t first_state_ = 0;       ///< of the present group
-  std::vector<std::uint32_t> items_;    ///< of the present edge
+  std::vector<std::uint8_t> unwanted_;      ///< by goal: not asked about
+  const std::vector<std::uint32_t> bound_;  ///< see bound_variables()
+  std::vector<std::uint8_t> is_met_;        ///< by goal: by an edge
+  std::vector<std::uint32_t> returns_;      ///< by task: its goal of returning, if it is wanted
+  std::uint32_t first_state_ = 0;           ///< of the present group
+  std::vector<std::uint32_t> items_;        ///< of the present edge
 };
 
 }  // namespace

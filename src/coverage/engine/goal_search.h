@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -44,12 +45,24 @@ struct SeenMove {
   const std::vector<TaskId>& gave_way;  ///< reactive tasks
 };
 
-/// Visits the reachable states of a group (docs/verify.md, "States"), numbered by the least number
-/// of moves to them, and makes each move from each of them on a coordinator that is monitored for
-/// goals. `on_move` sees the moves of the states, one state after the other. `unwanted`: null, or
-/// what GoalMonitor::restart() gets before each move. A complete search also tells the monitor
-/// which timeouts always come before others.
-[[nodiscard]] GoalSearchResult search_goals(const CompiledCatalog& catalog, GroupId group,
+/// What a search is about.
+struct GoalScope {
+  std::optional<GroupId> group;
+  /// Without a group: a variable that no behavior names, with what `never` ties to it.
+  std::uint32_t variable = none;
+};
+
+/// The variables that may change, that no behavior names, and that `never` binds to others or to
+/// some of their values. In catalog order.
+[[nodiscard]] std::vector<std::uint32_t> bound_variables(const CompiledCatalog& catalog,
+                                                         const Assumptions& assumptions);
+
+/// Visits the reachable states of the scope (docs/verify.md, "States"), numbered by the least
+/// number of moves to them, and makes each move from each of them on a coordinator that is
+/// monitored for goals. `on_move` sees the moves of the states, one state after the other.
+/// `unwanted`: null, or what GoalMonitor::restart() gets before each move. A complete search also
+/// tells the monitor which timeouts always come before others.
+[[nodiscard]] GoalSearchResult search_goals(const CompiledCatalog& catalog, GoalScope scope,
                                             const Assumptions& assumptions, GoalMonitor& monitor,
                                             const std::vector<std::uint8_t>* unwanted,
                                             const GoalSearchOptions& options,
@@ -67,9 +80,10 @@ struct GoalGraph {
   /// The states of a group are numbered from its first state on, by the least number of moves to
   /// them.
   struct Part {
-    GroupId group;
+    GroupId group;  ///< of a part that is about a variable: the first one
     std::uint32_t first_state = 0;
     bool is_complete = false;  ///< false: a limit came first
+    std::uint32_t variable = none;
   };
 
   std::size_t goal_count = 0;
@@ -79,10 +93,15 @@ struct GoalGraph {
   /// way before on the path: a number from `goal_count` on says that of goal number - goal_count.
   std::vector<std::uint32_t> items;
   std::vector<std::uint8_t> is_return;  ///< by goal
-  std::vector<Part> parts;              ///< by group; without those after a stop
+  /// By group, without those after a stop; then of variables that no behavior names.
+  std::vector<Part> parts;
   GoalFacts facts;
   std::optional<std::string> error;  ///< see Model::find_obstacle()
 
+  [[nodiscard]] std::size_t explored_groups() const {
+    return static_cast<std::size_t>(std::count_if(
+        parts.begin(), parts.end(), [](const Part& part) { return part.variable == none; }));
+  }
   [[nodiscard]] std::size_t state_count() const { return begin.size() - 1; }
   [[nodiscard]] std::span<const std::uint32_t> items_of(const Edge& edge) const {
     return {items.data() + edge.first_item, edge.item_count};

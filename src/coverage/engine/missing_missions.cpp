@@ -30,6 +30,7 @@ class MissionFinder {
         goals_(goals),
         assumptions_(assumptions),
         options_(options),
+        bound_(bound_variables(catalog, assumptions)),
         simulator_(catalog, goals, assumptions, options.is_over) {}
 
   MissingMissions find(const std::vector<std::uint8_t>& met) {
@@ -56,7 +57,7 @@ class MissionFinder {
     };
     MissionPlanner planner(graph_, options_.events, stop);
     set_apart(planner);
-    if (result_.partial.empty() && !is_stopped()) {
+    if (result_.is_explored() && !is_stopped()) {
       result_.lower_bound = planner.lower_bound(bounded());
     }
     for (std::uint32_t part = 0; part < graph_.parts.size(); ++part) {
@@ -79,9 +80,14 @@ class MissionFinder {
 
   void note_partial() {
     for (const GoalGraph::Part& part : graph_.parts) {
-      if (!part.is_complete) result_.partial.push_back(part.group);
+      if (part.is_complete) continue;
+      if (part.variable != none) {
+        result_.partial_variables.push_back(part.variable);
+      } else {
+        result_.partial.push_back(part.group);
+      }
     }
-    result_.unexplored = GroupId(static_cast<std::uint32_t>(graph_.parts.size()));
+    result_.unexplored = GroupId(static_cast<std::uint32_t>(graph_.explored_groups()));
     for (GroupId group = result_.unexplored; group < catalog_.group_count(); ++group) {
       result_.partial.push_back(group);
     }
@@ -91,6 +97,13 @@ class MissionFinder {
   [[nodiscard]] bool is_explored(const Goal& goal) const {
     if (goal.kind == Goal::Kind::reactive_returned && is_stopped()) return false;
     const std::vector<GroupId> groups = groups_of(catalog_, goal);
+    if (std::binary_search(bound_.begin(), bound_.end(), goal.variable)) {
+      const auto shows_all = [&](const GoalGraph::Part& part) {
+        return part.variable == goal.variable && part.is_complete;
+      };
+      return catalog_.group_count() == 0 ||
+             std::any_of(graph_.parts.begin(), graph_.parts.end(), shows_all);
+    }
     if (groups.empty()) return result_.unexplored > 0 || catalog_.group_count() == 0;
     return std::none_of(groups.begin(), groups.end(), [&](GroupId group) {
       return std::binary_search(result_.partial.begin(), result_.partial.end(), group);
@@ -132,7 +145,7 @@ class MissionFinder {
   /// themselves in every script, and what comes of it depends on times.
   [[nodiscard]] Goals bounded() const {
     Goals bounded = missing_;
-    if (graph_.parts.size() < 2) return bounded;
+    if (graph_.explored_groups() < 2) return bounded;
     std::set<GroupId> lively;
     for (const CompiledTask& task : catalog_.tasks) {
       if (task.reactive_start != 0) lively.insert(task.group);
@@ -305,6 +318,7 @@ class MissionFinder {
   const std::span<const Goal> goals_;
   const Assumptions& assumptions_;
   const MissingMissionOptions& options_;
+  const std::vector<std::uint32_t> bound_;  ///< see bound_variables()
   const MissionSimulator simulator_;
   GoalGraph graph_;
   MissingMissions result_;

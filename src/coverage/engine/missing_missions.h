@@ -34,7 +34,9 @@ struct MissingMissions {
   enum class Phase : std::uint8_t { exploration, planning, simulation, done };
 
   /// Whether nothing ended the work, so that what is not met is known to be hard to meet.
-  [[nodiscard]] bool is_complete() const { return reached == Phase::done && partial.empty(); }
+  [[nodiscard]] bool is_complete() const { return reached == Phase::done && is_explored(); }
+  /// Whether no limit and no stop ended the exploration.
+  [[nodiscard]] bool is_explored() const { return partial.empty() && partial_variables.empty(); }
 
   std::vector<Mission> missions;
   std::uint64_t wanted = 0;  ///< goals that the missions so far do not meet
@@ -49,6 +51,8 @@ struct MissingMissions {
   /// stop, the others, of which the first is `unexplored`.
   std::vector<GroupId> partial;
   GroupId unexplored;  ///< the number of groups if there are none
+  /// The same, of variables that no behavior names and that `never` binds.
+  std::vector<std::uint32_t> partial_variables;
   std::uint64_t states = 0;
   Phase reached = Phase::done;       ///< what is_stopped ended; then the missions are those so far
   std::optional<std::string> error;  ///< see Model::find_obstacle()

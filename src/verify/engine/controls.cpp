@@ -97,7 +97,7 @@ void Controls::explore(std::uint32_t action, Set set) {
 
 Controls::Number Controls::after_repair(std::uint32_t group) {
   const Model::Group& repaired = model_.groups()[group];
-  if (repaired.reactive.empty() || repaired.behaviors.size() == 0) return loaded_;
+  if (repaired.reactive.empty() || !repaired.has_faults) return loaded_;
   // Nothing is asked: only the queue may change.
   Model::Choice repair;
   repair.move.kind = Move::Kind::repair;

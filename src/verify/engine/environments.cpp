@@ -77,7 +77,8 @@ Environments::Set Environments::denied(std::uint32_t behavior) {
 }
 
 Environments::Set Environments::faulty(std::uint32_t behavior) const {
-  return faulty_.empty() ? Diagrams::empty : faulty_[behavior];
+  const std::uint32_t fault = model_.behaviors()[behavior].fault;
+  return fault == none ? Diagrams::empty : faulty_[fault];
 }
 
 void Environments::find_conditions() {
@@ -115,15 +116,15 @@ void Environments::find_never() {
 }
 
 void Environments::count_faults_in_all() {
-  const std::uint32_t behaviors = model_.layout().faulty_count;
-  for (std::uint32_t behavior = 0; behavior < behaviors; ++behavior) {
-    faulty_.push_back(sets_.with(first_fault_ + behavior, true));
+  const std::uint32_t faults = model_.layout().faulty_count;
+  for (std::uint32_t fault = 0; fault < faults; ++fault) {
+    faulty_.push_back(sets_.with(first_fault_ + fault, true));
   }
-  const std::uint32_t most = std::min(model_.assumptions().faults, behaviors);
+  const std::uint32_t most = std::min(model_.assumptions().faults, faults);
   exactly_.assign(most + 1, Diagrams::empty);
   exactly_[0] = Diagrams::all;
-  for (std::uint32_t behavior = behaviors; behavior-- > 0;) {
-    const Set faulty = faulty_[behavior];
+  for (std::uint32_t fault = faults; fault-- > 0;) {
+    const Set faulty = faulty_[fault];
     for (std::uint32_t count = most + 1; count-- > 0;) {
       const Set one_more = count > 0 ? sets_.both(exactly_[count - 1], faulty) : Diagrams::empty;
       exactly_[count] = sets_.either(sets_.without(exactly_[count], faulty), one_more);
@@ -131,14 +132,14 @@ void Environments::count_faults_in_all() {
   }
   for (std::uint32_t count = 0; count < most; ++count) room_ = sets_.either(room_, exactly_[count]);
   std::vector<bool> all_bits(sets_.bits(), false);
-  for (std::uint32_t group = 0; group < model_.groups().size(); ++group) {
-    std::vector<bool> bits(sets_.bits(), false);
-    const BitRange range = model_.groups()[group].behaviors;
-    for (std::uint32_t behavior = range.begin; behavior < range.end && behaviors > 0; ++behavior) {
-      bits[first_fault_ + behavior] = true;
-      all_bits[first_fault_ + behavior] = true;
-    }
-    faults_of_group_.push_back(sets_.keep_bits(std::move(bits)));
+  std::vector<std::vector<bool>> bits(model_.groups().size(), all_bits);
+  for (const Model::Behavior& behavior : model_.behaviors()) {
+    if (behavior.fault == none) continue;
+    all_bits[first_fault_ + behavior.fault] = true;
+    bits[behavior.group][first_fault_ + behavior.fault] = true;
+  }
+  for (std::vector<bool>& of_group : bits) {
+    faults_of_group_.push_back(sets_.keep_bits(std::move(of_group)));
   }
   all_faults_ = sets_.keep_bits(std::move(all_bits));
 }
@@ -157,12 +158,15 @@ void Environments::add_effects() {
                    values_of(move.subject, move.choice));
         break;
       case Move::Kind::own: {
-        const std::uint32_t bit = first_own_ + model_.behaviors()[move.subject].own;
+        const std::uint32_t bit = first_own_ + move.subject;
         for (const bool is_denied : {false, true}) {
           add_effect(choice, sets_.with(bit, !is_denied), {{{bit, is_denied}}});
         }
         break;
       }
+      case Move::Kind::together:
+        add_joint_effect(choice, model_.joint_changes()[move.subject]);
+        break;
       default: {
         Effect effect;
         effect.choice = choice;
@@ -180,9 +184,26 @@ void Environments::add_effect(std::uint32_t choice, Set condition, const Diagram
   effect.changes = true;
   effect.values = sets_.keep(values);
   effect.condition = sets_.without(condition, sets_.before_change(never_, effect.values));
+  if (effect.condition == Diagrams::empty) return;
   effect.table = static_cast<std::uint32_t>(tables_.size());
   tables_.emplace_back();
   effects_.push_back(effect);
+}
+
+/// It exists where at least two of the variables have other values.
+void Environments::add_joint_effect(std::uint32_t choice, const Model::JointChange& change) {
+  Set none_differs = Diagrams::all;
+  Set one_differs = Diagrams::empty;
+  Diagrams::Values all_values;
+  for (const auto& [variable, value] : change.values) {
+    const Set has_value = with_value(variable, value);
+    one_differs =
+        sets_.either(sets_.both(one_differs, has_value), sets_.without(none_differs, has_value));
+    none_differs = sets_.both(none_differs, has_value);
+    const Diagrams::Values values = values_of(variable, value);
+    all_values.bits.insert(all_values.bits.end(), values.bits.begin(), values.bits.end());
+  }
+  add_effect(choice, sets_.complement(sets_.either(none_differs, one_differs)), all_values);
 }
 
 Environments::Set Environments::after_to_before(const Effect& effect, Set set) {
@@ -256,8 +277,8 @@ void Environments::read(const std::uint16_t* cells, std::vector<std::uint8_t>& s
   for (std::uint32_t own = 0; own < layout.own_count; ++own) {
     string[first_own_ + own] = cells[layout.own + own] != 0 ? 1 : 0;
   }
-  for (std::uint32_t behavior = 0; behavior < layout.faulty_count; ++behavior) {
-    string[first_fault_ + behavior] = cells[layout.faulty + behavior] != 0 ? 1 : 0;
+  for (std::uint32_t fault = 0; fault < layout.faulty_count; ++fault) {
+    string[first_fault_ + fault] = cells[layout.faulty + fault] != 0 ? 1 : 0;
   }
 }
 

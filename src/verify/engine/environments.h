@@ -103,6 +103,7 @@ class Environments {
   void count_faults_in_all();
   void add_effects();
   void add_effect(std::uint32_t choice, Set condition, const Diagrams::Values& values);
+  void add_joint_effect(std::uint32_t choice, const Model::JointChange& change);
   [[nodiscard]] Table& table_of(const Effect& effect);
   [[nodiscard]] Set after_to_before(const Effect& effect, Set set);
 
@@ -114,7 +115,7 @@ class Environments {
   Diagrams sets_;
   std::vector<Set> fitting_;
   std::vector<Set> available_;
-  std::vector<Set> faulty_;  ///< by behavior; empty if nothing becomes faulty
+  std::vector<Set> faulty_;  ///< by number of the fault
   Set never_ = Diagrams::empty;
   Set marked_ = Diagrams::empty;
   Diagrams::ValuesNumber mark_set_ = 0;

@@ -30,12 +30,15 @@ Model::Model(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
     : catalog_(catalog), assumptions_(assumptions) {
   add_groups(groups);
   rank_priorities();
-  if (!add_variables(variables) || !fits_into_cells()) {
+  const StateSituation situation = situation_of_states(catalog, groups, assumptions, variables);
+  if (!add_variables(situation) || !fits_into_cells()) {
     is_too_large_ = true;
     return;
   }
   add_rivals();
   find_interactions();
+  add_own_flags(situation);
+  add_faults();
   lay_out();
   add_never();
   add_moves();
@@ -204,21 +207,15 @@ void Model::find_interactions() {
 }
 
 /// False if the table of the behaviors that do not fit is too large.
-bool Model::add_variables(const std::set<std::uint32_t>& watched) {
+bool Model::add_variables(const StateSituation& situation) {
   denied_.assign(words_for(behaviors_.size()), 0);
   for (std::uint32_t place = 0; place < behaviors_.size(); ++place) {
     if (!is_available_at_first(assumptions_, behaviors_[place].id)) set_bit(denied_.data(), place);
   }
-  std::set<std::uint32_t> named = watched;
-  for (const Behavior& behavior : behaviors_) {
-    for (const FittingValue& fitting : catalog_.fitting_values_of(behavior.id)) {
-      named.insert(fitting.variable);
-    }
-  }
   std::size_t values = 0;
-  for (const std::uint32_t id : named) values += catalog_.variables[id].value_count;
+  for (const std::uint32_t id : situation.variables) values += catalog_.variables[id].value_count;
   if (values * denied_.size() > most_misfit_words) return false;
-  for (const std::uint32_t id : named) {
+  for (const std::uint32_t id : situation.variables) {
     Variable& variable = variables_.emplace_back();
     variable.id = id;
     variable.values = catalog_.variables[id].value_count;
@@ -237,6 +234,28 @@ bool Model::add_variables(const std::set<std::uint32_t>& watched) {
     }
   }
   return true;
+}
+
+/// Those of the groups first, in the order of behaviors.
+void Model::add_own_flags(const StateSituation& situation) {
+  std::set<BehaviorId> left = situation.behaviors;
+  for (std::uint32_t place = 0; place < behaviors_.size(); ++place) {
+    if (left.erase(behaviors_[place].id) == 0) continue;
+    behaviors_[place].own = static_cast<std::uint32_t>(own_flags_.size());
+    own_flags_.push_back({behaviors_[place].id, place});
+  }
+  for (const BehaviorId behavior : left) own_flags_.push_back({behavior, none});
+}
+
+void Model::add_faults() {
+  if (assumptions_.faults == 0) return;
+  const std::vector<bool> is_listed =
+      members_of(assumptions_.listed_for_faults, catalog_.behaviors.size());
+  for (Behavior& behavior : behaviors_) {
+    if (is_listed[behavior.id] != assumptions_.only_listed_fail) continue;
+    behavior.fault = layout_.faulty_count++;
+    groups_[behavior.group].has_faults = true;
+  }
 }
 
 void Model::rank_priorities() {
@@ -345,28 +364,28 @@ void Model::lay_out() {
     add(variable.values - 1);
   }
   layout_.own = here();
-  const std::vector<bool> may_own_change =
-      members_of(assumptions_.behaviors, catalog_.behaviors.size());
-  for (Behavior& behavior : behaviors_) {
-    if (!may_own_change[behavior.id]) continue;
-    behavior.own = layout_.own_count++;
-    add(1);
-  }
+  layout_.own_count = static_cast<std::uint32_t>(own_flags_.size());
+  for (std::uint32_t flag = 0; flag < layout_.own_count; ++flag) add(1);
   layout_.faulty = here();
-  if (assumptions_.faults > 0) {
-    layout_.faulty_count = static_cast<std::uint32_t>(behaviors_.size());
-    for (std::uint32_t behavior = 0; behavior < behaviors_.size(); ++behavior) add(1);
-  }
+  for (std::uint32_t fault = 0; fault < layout_.faulty_count; ++fault) add(1);
   layout_.cells = here();
   packed_words_ = std::max<std::size_t>(1, (bits + 31) / 32);
 }
 
-/// Entries of `never` as conditions on cells. What cannot change is compared once.
+/// Entries of `never` as conditions on cells. What cannot change is compared once. Of an entry all
+/// that may change is part of the state, or nothing; then it is about other states.
 void Model::add_never() {
+  if (assumptions_.never.empty()) return;
   const std::vector<bool> may_change =
       members_of(assumptions_.variables, catalog_.variables.size());
   const std::vector<bool> may_own_change =
       members_of(assumptions_.behaviors, catalog_.behaviors.size());
+  const auto find_flag = [&](BehaviorId behavior) {
+    const auto found = std::find_if(own_flags_.begin(), own_flags_.end(),
+                                    [&](const OwnFlag& flag) { return flag.id == behavior; });
+    return found == own_flags_.end() ? none
+                                     : static_cast<std::uint32_t>(found - own_flags_.begin());
+  };
   for (const SituationPart& part : assumptions_.never) {
     Excluded excluded;
     bool occurs = true;
@@ -376,7 +395,7 @@ void Model::add_never() {
         continue;
       }
       const std::uint32_t place = find_variable(value.variable);
-      occurs = occurs && place != none;  // otherwise it is not part of the state
+      occurs = occurs && place != none;
       if (occurs) excluded.emplace_back(variables_[place].cell, value.value);
     }
     for (const SituationPart::Own& own : part.behaviors) {
@@ -384,9 +403,9 @@ void Model::add_never() {
         occurs = occurs && is_available_at_first(assumptions_, own.behavior) == own.available;
         continue;
       }
-      const std::uint32_t place = find_behavior(own.behavior);
-      occurs = occurs && place != none;
-      if (occurs) excluded.emplace_back(layout_.own + behaviors_[place].own, own.available ? 0 : 1);
+      const std::uint32_t flag = find_flag(own.behavior);
+      occurs = occurs && flag != none;
+      if (occurs) excluded.emplace_back(layout_.own + flag, own.available ? 0 : 1);
     }
     if (occurs) excluded_.push_back(std::move(excluded));
   }
@@ -428,10 +447,17 @@ void Model::add_moves() {
     if (!is_denied && behaviors_[behavior].own == none) continue;
     moves_.push_back({{Move::Kind::situation_change, index_of_behavior(behavior), 0}, behavior, 0});
   }
-  if (assumptions_.faults > 0) {
-    add_for_behaviors(Move::Kind::fault);
-    add_for_behaviors(Move::Kind::repair);
+  for (const Move::Kind kind : {Move::Kind::fault, Move::Kind::repair}) {
+    for (const std::uint32_t behavior : behaviors_in_order_) {
+      if (behaviors_[behavior].fault == none) continue;
+      moves_.push_back({{kind, index_of_behavior(behavior), 0}, behavior, 0});
+    }
   }
+  add_situation_moves();
+  if (!reactive_.empty()) moves_.push_back({{Move::Kind::due, 0, 0}, 0, 0});
+}
+
+void Model::add_situation_moves() {
   for (std::uint32_t variable = 0; variable < variables_.size(); ++variable) {
     if (variables_[variable].cell == none) continue;
     for (std::uint32_t value = 0; value < variables_[variable].values; ++value) {
@@ -441,12 +467,42 @@ void Model::add_moves() {
            value});
     }
   }
-  for (const std::uint32_t behavior : behaviors_in_order_) {
-    if (behaviors_[behavior].own == none) continue;
-    // Which of the two it becomes is filled in where the move is taken.
-    moves_.push_back({{Move::Kind::own, index_of_behavior(behavior), 0}, behavior, 0});
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> flags;
+  for (std::uint32_t flag = 0; flag < own_flags_.size(); ++flag) {
+    flags.emplace_back(catalog_.behaviors[own_flags_[flag].id].catalog_index, flag);
   }
-  if (!reactive_.empty()) moves_.push_back({{Move::Kind::due, 0, 0}, 0, 0});
+  std::sort(flags.begin(), flags.end());
+  for (const auto& [index, flag] : flags) {
+    // Which of the two it becomes is filled in where the move is taken.
+    moves_.push_back({{Move::Kind::own, index, 0}, flag, 0});
+  }
+  for (std::uint32_t list = 0; list < assumptions_.together.size(); ++list) {
+    add_joint_changes(list);
+  }
+}
+
+/// Those of its variables that are not part of the state do not matter, and keep their first value.
+void Model::add_joint_changes(std::uint32_t list) {
+  const std::vector<std::uint32_t>& variables = assumptions_.together[list];
+  const std::uint32_t count = count_combinations(catalog_, variables);
+  is_too_large_ = is_too_large_ || count > most_values_together;
+  for (std::uint32_t number = 0; number < count && !is_too_large_; ++number) {
+    JointChange change;
+    bool is_possible = true;
+    for (const VariableValue& value : combination_of(catalog_, variables, number)) {
+      const std::uint32_t place = find_variable(value.variable);
+      if (place != none && variables_[place].cell != none) {
+        change.values.emplace_back(place, value.value);
+      } else {
+        is_possible = is_possible && value.value == initial_value(assumptions_, value.variable);
+      }
+    }
+    if (!is_possible || change.values.size() < 2) continue;
+    moves_.push_back({{Move::Kind::together, list, static_cast<std::int32_t>(number)},
+                      static_cast<std::uint32_t>(joint_changes_.size()),
+                      0});
+    joint_changes_.push_back(std::move(change));
+  }
 }
 
 std::vector<std::uint16_t> Model::first_state() const {
@@ -457,11 +513,9 @@ std::vector<std::uint16_t> Model::first_state() const {
   for (const Variable& variable : variables_) {
     if (variable.cell != none) cells[variable.cell] = static_cast<std::uint16_t>(variable.initial);
   }
-  for (std::uint32_t place = 0; place < behaviors_.size(); ++place) {
-    const Behavior& behavior = behaviors_[place];
-    if (behavior.own != none && has_bit(denied_.data(), place)) {
-      cells[layout_.own + behavior.own] = 1;
-    }
+  for (std::uint32_t flag = 0; flag < layout_.own_count; ++flag) {
+    const bool is_available = is_available_at_first(assumptions_, own_flags_[flag].id);
+    cells[layout_.own + flag] = is_available ? 0 : 1;
   }
   return cells;
 }
@@ -471,8 +525,10 @@ std::optional<std::string> Model::find_obstacle() const {
     return fmt::format(
         "too large to explore: the tasks of a group, the behaviors of a task, the values of a "
         "variable and the priorities may be {} each, the behaviors of a group times the values of "
-        "its variables {}, and a state may take {} bytes",
-        most_in_cell, most_misfit_words * 64, 4 * most_in_cell);
+        "its variables {}, the values of variables that change together {}, and a state may take "
+        "{} "
+        "bytes",
+        most_in_cell, most_misfit_words * 64, most_values_together, 4 * most_in_cell);
   }
   if (is_excluded(first_state().data())) {
     return "the first state is in a situation that 'never' excludes";

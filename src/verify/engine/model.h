@@ -12,6 +12,7 @@
 #include "core/property/properties.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "verify/engine/bit_sets.h"
+#include "verify/engine/state_situation.h"
 
 namespace cbc {
 
@@ -32,12 +33,16 @@ struct Move {
     repair,
     variable,  ///< a situation variable gets another value
     own,       ///< own(b) becomes the other of the two
+    together,  ///< some variables of a list of `together` get other values at once
     due        ///< the first set of the queue comes due
   };
   Kind kind = Kind::due;
-  /// Place in the catalog of the task (start, stop), the behavior, or the variable; 0 if due.
+  /// Place in the catalog of the task (start, stop), the behavior, or the variable; of together the
+  /// place of the list; 0 if due.
   std::uint32_t subject = 0;
   /// Of start: the priority. Of variable: the value. Of own: whether the behavior is available now.
+  /// Of together: the values of its variables (combination_of()); of those that are not part of the
+  /// state, that at first.
   std::int32_t choice = 0;
 
   bool operator==(const Move&) const = default;
@@ -77,12 +82,20 @@ class Model {
     BitRange values;
     BitRange behaviors;
     std::vector<std::uint32_t> reactive;  ///< its reactive tasks, by their numbers
+    bool has_faults = false;              ///< a behavior of it can become faulty
   };
   struct Behavior {
     BehaviorId id;
     std::uint32_t group = 0;  ///< place in groups()
     std::vector<std::uint32_t> values;
-    std::uint32_t own = none;  ///< its number among those whose own(b) may change
+    std::uint32_t own = none;    ///< its number among the own flags
+    std::uint32_t fault = none;  ///< its number among those that can become faulty
+  };
+  /// A behavior whose own(b) is part of the state, as it may change: one of the groups, or another
+  /// one that `never` ties to something in the state.
+  struct OwnFlag {
+    BehaviorId id;
+    std::uint32_t behavior = none;  ///< as the model counts; none: it is of another group
   };
   struct Variable {
     std::uint32_t id = 0;  ///< place in the catalog
@@ -92,10 +105,15 @@ class Model {
     /// By value: the behaviors that do not fit.
     std::vector<std::vector<Word>> misfits;
   };
+  /// Values that several variables get at once. It is a move where at least two have other ones.
+  struct JointChange {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> values;  ///< variables, ascending; values
+  };
   struct Choice {
     Move move;
-    std::uint32_t subject = 0;  ///< the task, behavior or variable as the model counts them
-    std::uint32_t choice = 0;   ///< of start: the rank; of variable: the value
+    /// Task, behavior, variable, own flag or joint change as the model counts them.
+    std::uint32_t subject = 0;
+    std::uint32_t choice = 0;  ///< of start: the rank; of variable: the value
   };
 
   /// A state consists of cells. Their order: values of tasks (value index + 1, 0: not running);
@@ -112,7 +130,7 @@ class Model {
     std::uint32_t own = 0;
     std::uint32_t own_count = 0;
     std::uint32_t faulty = 0;
-    std::uint32_t faulty_count = 0;  ///< behaviors, or 0 if there are no faults
+    std::uint32_t faulty_count = 0;  ///< behaviors that can become faulty
     std::uint32_t cells = 0;
   };
   /// Where a cell stands in a packed state.
@@ -123,7 +141,8 @@ class Model {
   };
 
   /// `groups` are ascending. `variables` are part of the state even if no behavior of the groups
-  /// names them. The catalog and the assumptions must outlive the model.
+  /// names them, and so is what `never` ties to the state (situation_of_states). The catalog and
+  /// the assumptions must outlive the model.
   Model(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
         const Assumptions& assumptions, const std::set<std::uint32_t>& variables = {});
 
@@ -133,6 +152,8 @@ class Model {
   [[nodiscard]] const std::vector<Task>& tasks() const { return tasks_; }
   [[nodiscard]] const std::vector<Behavior>& behaviors() const { return behaviors_; }
   [[nodiscard]] const std::vector<Variable>& variables() const { return variables_; }
+  [[nodiscard]] const std::vector<OwnFlag>& own_flags() const { return own_flags_; }
+  [[nodiscard]] const std::vector<JointChange>& joint_changes() const { return joint_changes_; }
   /// By value of a task: the task, the behavior.
   [[nodiscard]] std::uint32_t task_of(std::uint32_t value) const { return task_of_[value]; }
   [[nodiscard]] std::uint32_t behavior_of(std::uint32_t value) const { return behavior_of_[value]; }
@@ -186,7 +207,7 @@ class Model {
   /// Why no state can be explored, if so: `never` excludes the first one, or a number is too large
   /// for a cell. Then this model must not be used for anything else.
   [[nodiscard]] std::optional<std::string> find_obstacle() const;
-  /// An entry of `never`, as cells that have values.
+  /// An entry of `never`, as cells that have values; without what is so in every state.
   using Excluded = std::vector<std::pair<std::uint32_t, std::uint16_t>>;
   [[nodiscard]] const std::vector<Excluded>& excluded() const { return excluded_; }
   /// Whether `never` excludes the situation of these cells.
@@ -207,10 +228,14 @@ class Model {
   void add_behaviors(Group& group);
   void add_rivals();
   void find_interactions();
-  [[nodiscard]] bool add_variables(const std::set<std::uint32_t>& watched);
+  [[nodiscard]] bool add_variables(const StateSituation& situation);
+  void add_own_flags(const StateSituation& situation);
+  void add_faults();
   void rank_priorities();
   void lay_out();
   void add_moves();
+  void add_situation_moves();
+  void add_joint_changes(std::uint32_t list);
   void add_never();
   [[nodiscard]] std::uint32_t most_requests() const;
 
@@ -220,6 +245,8 @@ class Model {
   std::vector<Task> tasks_;
   std::vector<Behavior> behaviors_;  ///< of each group by level, then BehaviorId
   std::vector<Variable> variables_;
+  std::vector<OwnFlag> own_flags_;
+  std::vector<JointChange> joint_changes_;
   std::vector<std::uint32_t> task_of_;
   std::vector<std::uint32_t> behavior_of_;
   std::vector<std::uint32_t> reactive_;

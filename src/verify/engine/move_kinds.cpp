@@ -26,6 +26,7 @@ bool is_of_kinds(const MoveKinds& kinds, const Model::Choice& choice, const Mode
     case Move::Kind::situation_change:
     case Move::Kind::variable:
     case Move::Kind::own:
+    case Move::Kind::together:
       return kinds.situation;
     case Move::Kind::due:
       break;

@@ -60,10 +60,7 @@ class PairStepper {
     if (!is_new && !is_old) return false;
     old_trace_.events.clear();
     new_trace_.events.clear();
-    const bool is_situation = move.move.kind == Move::Kind::variable;
-    if (!take(new_, move.of_new, is_situation) || !take(old_, move.of_old, is_situation)) {
-      return false;
-    }
+    if (!take(new_, move.of_new) || !take(old_, move.of_old)) return false;
     answers_.compare(new_trace_, old_trace_, new_.cells_after(), old_.cells_after());
     return true;
   }
@@ -85,9 +82,9 @@ class PairStepper {
   }
 
  private:
-  static bool take(Stepper& stepper, const Model::Choice* choice, bool is_situation) {
+  static bool take(Stepper& stepper, const Model::Choice* choice) {
     if (choice != nullptr) return stepper.take(*choice);
-    stepper.stay(is_situation);
+    stepper.stay();
     return true;
   }
 

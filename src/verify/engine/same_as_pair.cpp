@@ -2,19 +2,40 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <vector>
 
 namespace cbc {
+
+namespace {
+
+/// The variables that behaviors of these groups name, as another catalog counts, if it has them.
+std::set<std::uint32_t> variables_in_other(const CompiledCatalog& catalog,
+                                           const std::vector<GroupId>& groups,
+                                           const Translation& to_other) {
+  std::set<std::uint32_t> variables;
+  for (const GroupId group : groups) {
+    for (const std::uint32_t variable : variables_named_by(catalog, group)) {
+      const std::uint32_t known = to_other.variables[variable];
+      if (known != none) variables.insert(known);
+    }
+  }
+  return variables;
+}
+
+}  // namespace
 
 ModelPair::ModelPair(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
                      const GroupPair& groups, const Assumptions& old_assumptions,
                      const Assumptions& new_assumptions, const TranslationPair& of_names)
     : translations(of_names),
-      old_model(old_catalog, groups.old_groups, old_assumptions),
-      new_model(new_catalog, groups.new_groups, new_assumptions) {
+      old_model(old_catalog, groups.old_groups, old_assumptions,
+                variables_in_other(new_catalog, groups.new_groups, of_names.to_old)),
+      new_model(new_catalog, groups.new_groups, new_assumptions,
+                variables_in_other(old_catalog, groups.old_groups, of_names.to_new)) {
   add_tasks();
   add_behaviors();
   add_moves();
-  add_variables_of_old();
 }
 
 void ModelPair::add_tasks() {
@@ -55,24 +76,38 @@ ModelPair::Key ModelPair::key_of(const Model& model, const Model::Choice& choice
   const auto id_of = [&](auto id, auto ids) {
     return to_other == nullptr ? id : (to_other->*ids)[id];
   };
+  const auto value_of = [&](std::uint32_t place, std::uint32_t value) {
+    const std::uint32_t variable = model.variables()[place].id;
+    return std::pair<std::uint32_t, std::int64_t>(
+        id_of(variable, &Translation::variables),
+        to_other == nullptr ? value : to_other->values[variable][value]);
+  };
   switch (kind) {
     case Move::Kind::due:
-      return {kind, 0, 0};
+      return {kind, {}};
     case Move::Kind::start:
     case Move::Kind::stop:
-      return {kind, id_of(model.tasks()[choice.subject].id, &Translation::tasks),
-              choice.move.choice};
-    case Move::Kind::variable: {
-      const std::uint32_t variable = model.variables()[choice.subject].id;
-      return {kind, id_of(variable, &Translation::variables),
-              to_other == nullptr ? choice.choice : to_other->values[variable][choice.choice]};
+      return {kind,
+              {{id_of(model.tasks()[choice.subject].id, &Translation::tasks), choice.move.choice}}};
+    case Move::Kind::variable:
+      return {kind, {value_of(choice.subject, choice.choice)}};
+    case Move::Kind::together: {
+      Key key{kind, {}};
+      for (const auto& [variable, value] : model.joint_changes()[choice.subject].values) {
+        key.second.push_back(value_of(variable, value));
+      }
+      std::sort(key.second.begin(), key.second.end());
+      return key;
     }
+    case Move::Kind::own:
+      return {kind, {{id_of(model.own_flags()[choice.subject].id, &Translation::behaviors), 0}}};
     default:
-      return {kind, id_of(model.behaviors()[choice.subject].id, &Translation::behaviors), 0};
+      return {kind, {{id_of(model.behaviors()[choice.subject].id, &Translation::behaviors), 0}}};
   }
 }
 
-/// Adds the moves of the new model together with those of the old one.
+/// Adds the moves of the new model together with those of the old one. Both have the variables that
+/// both catalogs have and that behaviors of either one name, and what `never` ties to them.
 void ModelPair::add_moves() {
   std::map<Key, const Model::Choice*> of_old;
   for (const Model::Choice& choice : old_model.moves()) {
@@ -81,34 +116,15 @@ void ModelPair::add_moves() {
   for (const Model::Choice& choice : new_model.moves()) {
     const Key key = key_of(new_model, choice, &translations.to_old);
     const auto found = of_old.find(key);
-    const bool has_both = found != of_old.end();
-    // The old catalog may have a variable and its value, although no behavior of its groups names
-    // it.
-    const bool is_known = choice.move.kind == Move::Kind::variable && std::get<1>(key) != none &&
-                          std::get<2>(key) != none;
-    if (has_both || is_known || choice.move.kind == Move::Kind::due) {
-      moves.push_back({&choice, has_both ? found->second : nullptr, choice.move});
+    if (found != of_old.end()) {
+      moves.push_back({&choice, found->second, choice.move});
+    } else if (choice.move.kind == Move::Kind::due) {
+      moves.push_back({&choice, nullptr, choice.move});
     }
   }
   if (new_model.reactive().empty() && !old_model.reactive().empty()) {
     moves.push_back({nullptr, &old_model.moves().back(), old_model.moves().back().move});
   }
-}
-
-/// Adds the changes of variables that both catalogs have and only behaviors of the old groups name.
-void ModelPair::add_variables_of_old() {
-  for (const Model::Choice& choice : old_model.moves()) {
-    if (choice.move.kind != Move::Kind::variable) continue;
-    const auto [kind, variable, value] = key_of(old_model, choice, &translations.to_new);
-    if (variable == none || value == none || new_model.find_variable(variable) != none) continue;
-    moves.push_back({nullptr, &choice, {kind, variable, static_cast<std::int32_t>(value)}});
-  }
-  // Those of the new groups are in order, and so are moves of one kind that is no change.
-  std::stable_sort(moves.begin(), moves.end(), [](const PairedMove& a, const PairedMove& b) {
-    if (a.move.kind != b.move.kind) return a.move.kind < b.move.kind;
-    return a.move.kind == Move::Kind::variable &&
-           std::tie(a.move.subject, a.move.choice) < std::tie(b.move.subject, b.move.choice);
-  });
 }
 
 }  // namespace cbc

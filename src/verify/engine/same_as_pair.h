@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -46,7 +45,7 @@ struct ModelPair {
   const TranslationPair& translations;
   Model old_model;
   Model new_model;
-  /// The same move in both.
+  /// The same move in both; only one of them may have a queue.
   struct PairedMove {
     const Model::Choice* of_new = nullptr;  ///< null: the new one does not have it
     const Model::Choice* of_old = nullptr;  ///< null: the old one does not have it
@@ -63,15 +62,14 @@ struct ModelPair {
   std::vector<bool> old_is_compared;
 
  private:
-  /// A move, with the id of its task, behavior or variable, and its priority or value.
-  using Key = std::tuple<Move::Kind, std::uint32_t, std::int64_t>;
+  /// A move, with the ids of its task, behavior or variables, each with its priority or value.
+  using Key = std::pair<Move::Kind, std::vector<std::pair<std::uint32_t, std::int64_t>>>;
 
   [[nodiscard]] static Key key_of(const Model& model, const Model::Choice& choice,
                                   const Translation* to_other);
   void add_tasks();
   void add_behaviors();
   void add_moves();
-  void add_variables_of_old();
 };
 
 }  // namespace cbc

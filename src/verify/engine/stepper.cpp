@@ -160,8 +160,7 @@ bool Stepper::may_have_move(const Model::Choice& choice) const {
     case Move::Kind::start:
       return true;
     case Move::Kind::stop:
-      // Rank 0 is that of reactive starts.
-      return before_.cells[subject] != 0 && request_of(subject) > 1;
+      return before_.cells[subject] != 0 && request_of(subject) > 0;
     case Move::Kind::success: {
       if (!is_active) return false;
       const auto& values = model_.behaviors()[subject].values;
@@ -196,6 +195,11 @@ bool Stepper::has_move(const Model::Choice& choice) const {
       return is_faulty(subject);
     case Move::Kind::variable:
       return value_of(subject) != choice.choice;
+    case Move::Kind::together: {
+      const auto& values = model_.joint_changes()[subject].values;
+      return std::count_if(values.begin(), values.end(),
+                           [&](const auto& one) { return value_of(one.first) != one.second; }) >= 2;
+    }
     default:
       return may_have_move(choice);
   }
@@ -208,22 +212,27 @@ bool Stepper::take(const Model::Choice& choice) {
   const std::uint32_t subject = choice.subject;
   switch (choice.move.kind) {
     case Move::Kind::fault:
-      now_.cells[layout.faulty + subject] = 1;
+      now_.cells[layout.faulty + model_.behaviors()[subject].fault] = 1;
       break;
     case Move::Kind::repair:
-      now_.cells[layout.faulty + subject] = 0;
+      now_.cells[layout.faulty + model_.behaviors()[subject].fault] = 0;
       break;
     case Move::Kind::variable:
-      if (!change_situation(model_.variables()[subject].cell,
-                            static_cast<std::uint16_t>(choice.choice))) {
-        return false;
-      }
+      now_.cells[model_.variables()[subject].cell] = static_cast<std::uint16_t>(choice.choice);
+      if (!enter_situation()) return false;
       break;
     case Move::Kind::own: {
-      const std::uint32_t cell = layout.own + model_.behaviors()[subject].own;
-      if (!change_situation(cell, now_.cells[cell] == 0 ? 1 : 0)) return false;
+      std::uint16_t& cell = now_.cells[layout.own + subject];
+      cell = cell == 0 ? 1 : 0;
+      if (!enter_situation()) return false;
       break;
     }
+    case Move::Kind::together:
+      for (const auto& [variable, value] : model_.joint_changes()[subject].values) {
+        now_.cells[model_.variables()[variable].cell] = static_cast<std::uint16_t>(value);
+      }
+      if (!enter_situation()) return false;
+      break;
     default:
       break;
   }
@@ -272,6 +281,7 @@ void Stepper::make(const Model::Choice& choice) {
       break;
     case Move::Kind::variable:
     case Move::Kind::own:
+    case Move::Kind::together:
       adapt();
       break;
     case Move::Kind::due:
@@ -283,11 +293,9 @@ void Stepper::make(const Model::Choice& choice) {
   if (reduce_) merge_orders();
 }
 
-void Stepper::stay(bool is_situation) {
+void Stepper::stay() {
   now_ = before_;
   joined_set_ = 0;
-  if (is_situation) open_event(Verb::situation, Origin::script, none);
-  close_event();
 }
 
 bool Stepper::would_start(std::uint32_t task, Model::Rank ranks) {
@@ -383,9 +391,8 @@ void Stepper::start_reactive(std::uint32_t reactive) {
   }
 }
 
-/// False if the situation is excluded.
-bool Stepper::change_situation(std::uint32_t cell, std::uint16_t value) {
-  now_.cells[cell] = value;
+/// False if the new situation is excluded.
+bool Stepper::enter_situation() {
   if (model_.is_excluded(now_.cells.data())) return false;
   derive_situation(now_);
   return true;
@@ -429,9 +436,10 @@ bool Stepper::is_confirmed(EnvironmentQuery::Kind kind, std::uint32_t behavior) 
 }
 
 bool Stepper::is_faulty_now(std::uint32_t behavior) const {
-  if (model_.layout().faulty_count == 0) return false;
+  const std::uint32_t fault = model_.behaviors()[behavior].fault;
+  if (fault == none) return false;
   return environment_ != nullptr ? environment_->holds({EnvironmentQuery::Kind::faulty, behavior})
-                                 : now_.cells[model_.layout().faulty + behavior] != 0;
+                                 : now_.cells[model_.layout().faulty + fault] != 0;
 }
 
 /// Whether a behavior of the group has become available.

@@ -83,7 +83,7 @@ class Stepper {
   /// The move that a choice stands for in the loaded state.
   [[nodiscard]] Move move_of(const Model::Choice& choice) const {
     Move move = choice.move;
-    if (move.kind == Move::Kind::own) move.choice = is_denied(choice.subject) ? 1 : 0;
+    if (move.kind == Move::Kind::own) move.choice = cells()[model_.layout().own + choice.subject];
     return move;
   }
   [[nodiscard]] bool was_accepted() const { return accepted_; }
@@ -109,9 +109,8 @@ class Stepper {
   void take_control(const Model::Choice& choice, const Possible& possible,
                     EnvironmentOracle& environment);
 
-  /// Instead of a move: leaves the state as it is. `is_situation`: by a change of the situation
-  /// that is not about the model.
-  void stay(bool is_situation);
+  /// Instead of a move: leaves the state as it is.
+  void stay();
   /// Whether the reactive task joined the queue in the move.
   [[nodiscard]] bool has_joined(std::uint32_t reactive) const {
     return now_.cells[model_.layout().queue + reactive] == joined_set_ && joined_set_ != 0;
@@ -138,7 +137,8 @@ class Stepper {
     return has_bit(before_.possible.available.data(), behavior);
   }
   [[nodiscard]] bool is_faulty(std::uint32_t behavior) const {
-    return model_.layout().faulty_count > 0 && cells()[model_.layout().faulty + behavior] != 0;
+    const std::uint32_t fault = model_.behaviors()[behavior].fault;
+    return fault != none && cells()[model_.layout().faulty + fault] != 0;
   }
   /// Whether own(b) is false.
   [[nodiscard]] bool is_denied(std::uint32_t behavior) const {
@@ -218,7 +218,7 @@ class Stepper {
   void finish(std::uint32_t behavior, FinishCause cause, Origin origin);
   void finish_lost();
   void start_reactive(std::uint32_t reactive);
-  bool change_situation(std::uint32_t cell, std::uint16_t value);
+  [[nodiscard]] bool enter_situation();
   void adapt();
   void make(const Model::Choice& choice);
   void come_due();

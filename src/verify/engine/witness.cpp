@@ -127,7 +127,8 @@ Schedule find_schedule(const Timeline& timeline, Microseconds pause) {
   }
 }
 
-/// Null for moves of a variable, or of a queue, that only the other of two catalogs has.
+/// Null for what the model does not have: moves of a queue that only the other of two catalogs has,
+/// and of what is not available in other groups.
 std::vector<const Model::Choice*> find_choices(const Model& model, const std::vector<Move>& moves) {
   std::vector<const Model::Choice*> choices;
   for (const Move& move : moves) {
@@ -141,6 +142,48 @@ std::vector<const Model::Choice*> find_choices(const Model& model, const std::ve
   }
   return choices;
 }
+
+/// The variables that moves change.
+std::set<std::uint32_t> variables_in(const Assumptions& assumptions,
+                                     const std::vector<Move>& moves) {
+  std::set<std::uint32_t> variables;
+  for (const Move& move : moves) {
+    if (move.kind == Move::Kind::variable) variables.insert(move.subject);
+    if (move.kind != Move::Kind::together) continue;
+    const auto& list = assumptions.together[move.subject];
+    variables.insert(list.begin(), list.end());
+  }
+  return variables;
+}
+
+/// Turns the moves of a path into steps, one after the other.
+class StepWriter {
+ public:
+  StepWriter(const CompiledCatalog& catalog, const Assumptions& assumptions)
+      : catalog_(catalog), assumptions_(assumptions) {
+    for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+      values_.push_back(initial_value(assumptions, variable));
+    }
+  }
+
+  /// Of variables that change together those that have another value after it.
+  [[nodiscard]] Step next(const Move& move) {
+    Step step = step_of(catalog_, assumptions_, move);
+    auto& variables = step.situation.variables;
+    if (move.kind == Move::Kind::together) {
+      std::erase_if(variables, [this](const VariableValue& value) {
+        return values_[value.variable] == value.value;
+      });
+    }
+    for (const VariableValue& value : variables) values_[value.variable] = value.value;
+    return step;
+  }
+
+ private:
+  const CompiledCatalog& catalog_;
+  const Assumptions& assumptions_;
+  std::vector<std::uint32_t> values_;
+};
 
 void add_all_tasks(const Model& model, std::set<TaskId>& tasks) {
   for (const Model::Task& task : model.tasks()) tasks.insert(task.id);
@@ -211,7 +254,7 @@ Script begin_script(const CompiledCatalog& catalog, const Assumptions& assumptio
 
 }  // namespace
 
-Step step_of(const Move& move) {
+Step step_of(const CompiledCatalog& catalog, const Assumptions& assumptions, const Move& move) {
   Step step;
   step.subject = move.subject;
   switch (move.kind) {
@@ -244,6 +287,11 @@ Step step_of(const Move& move) {
       step.verb = Verb::situation;
       step.situation.availability.push_back({move.subject, move.choice != 0});
       break;
+    case Move::Kind::together:
+      step.verb = Verb::situation;
+      step.situation.variables = combination_of(catalog, assumptions.together[move.subject],
+                                                static_cast<std::uint32_t>(move.choice));
+      break;
     case Move::Kind::due:
       break;
   }
@@ -253,9 +301,7 @@ Step step_of(const Move& move) {
 Witness make_witness(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
                      const Assumptions& assumptions, const std::vector<Move>& moves,
                      const Property* property, const std::string& comment) {
-  const std::set<std::uint32_t> variables =
-      property == nullptr ? std::set<std::uint32_t>() : variables_of(*property);
-  const Model model(catalog, groups, assumptions, variables);
+  const Model model(catalog, groups, assumptions, variables_in(assumptions, moves));
   const bool ends_with_start = property != nullptr && property->kind == Property::Kind::can_start;
   std::vector<Move> path = moves;
   if (ends_with_start) path.pop_back();
@@ -272,6 +318,7 @@ Witness make_witness(const CompiledCatalog& catalog, const std::vector<GroupId>&
   Script& script = witness.script;
   script = begin_script(catalog, assumptions, schedule);
   std::string due;
+  StepWriter writer(catalog, assumptions);
   for (std::size_t place = 0; place < moves.size(); ++place) {
     const Microseconds time = schedule.times[place + 1];
     if (moves[place].kind == Move::Kind::due) {
@@ -279,7 +326,10 @@ Witness make_witness(const CompiledCatalog& catalog, const std::vector<GroupId>&
       due += fmt::format("At {} s reactive tasks try to start.\n", format_decimal(time, 6));
       continue;
     }
-    Step& step = script.steps.emplace_back(step_of(moves[place]));
+    // What is no change in one of two catalogs may be one in the other.
+    Step& step = script.steps.emplace_back(property != nullptr
+                                               ? writer.next(moves[place])
+                                               : step_of(catalog, assumptions, moves[place]));
     step.time = time;
     witness.comments.push_back(std::exchange(due, {}));
   }
@@ -294,13 +344,14 @@ Witness make_witness(const CompiledCatalog& catalog, const std::vector<GroupId>&
 Script make_script(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
                    const Assumptions& assumptions, const std::vector<Move>& moves,
                    Microseconds pause) {
-  const Model model(catalog, groups, assumptions);
+  const Model model(catalog, groups, assumptions, variables_in(assumptions, moves));
   Stepper stepper(model);
   const Schedule schedule =
       find_schedule(follow(model, find_choices(model, moves), stepper), pause);
   Script script = begin_script(catalog, assumptions, schedule);
+  StepWriter writer(catalog, assumptions);
   for (std::size_t place = 0; place < moves.size(); ++place) {
-    Step& step = script.steps.emplace_back(step_of(moves[place]));
+    Step& step = script.steps.emplace_back(writer.next(moves[place]));
     const bool is_due = moves[place].kind == Move::Kind::due;
     if (is_due) step.expect.emplace();
     step.time = schedule.times[place + (is_due ? 2 : 1)];

@@ -20,8 +20,10 @@ struct Witness {
   std::vector<Microseconds> due;      ///< when the path lets the queue come due
 };
 
-/// The move as a step of a script. Not for Move::Kind::due, which the clock makes.
-[[nodiscard]] Step step_of(const Move& move);
+/// The move as a step of a script. Not for Move::Kind::due, which the clock makes. A change of
+/// several variables lists all that may change with them.
+[[nodiscard]] Step step_of(const CompiledCatalog& catalog, const Assumptions& assumptions,
+                           const Move& move);
 
 /// The script of these moves, made on these groups. `property`: decides what is expected at the
 /// end; null: the values of all tasks and, if the last move is a start or a stop, its outcome.
