@@ -146,11 +146,12 @@ constexpr auto property =
             [](const Answered& of) -> const auto& { return of.part.file->path; }),
         member("line", line_number, "The line of the property in the file.",
                [](const Answered& of) { return of.property.line; }),
-        member("kind", words(Property::Kind::reachable),
-               "can_start: wherever the task does not run, its start is accepted. always: the "
-               "condition "
-               "holds in every state. never: it holds in none. reachable: it holds in some state.",
-               [](const Answered& of) { return of.property.kind; }),
+        member(
+            "kind", words(Property::Kind::reachable),
+            "can_start: wherever the task does not run, and `when` holds, its start is accepted. "
+            "always: the condition holds in every state, or wherever `when` holds. never: it "
+            "holds in none. reachable: it holds in some state.",
+            [](const Answered& of) { return of.property.kind; }),
         member("name", nullable(text), "The name; null if it has none.",
                [](const Answered& of) {
                  return of.property.name.empty() ? nullptr : &of.property.name;
