@@ -385,7 +385,7 @@ INSTANTIATE_TEST_SUITE_P(Pages, ExcerptsOf,
                                          std::pair("docs/coverage.md", 2U),
                                          std::pair("docs/recipes.md", 19U),
                                          std::pair("docs/sweeps.md", 1U),
-                                         std::pair("docs/verify.md", 5U)));
+                                         std::pair("docs/verify.md", 6U)));
 
 /// One screen: `man` has the rest.
 TEST(Help, FitsOnAScreen) {

@@ -197,7 +197,7 @@ TEST(PlainExploration, ChangesVariablesTogether) {
   assumptions.together = {{0, 1}};
   Property both;
   both.kind = Property::Kind::reachable;
-  both.condition.situation.variables = {{0, 1}, {1, 1}};
+  both.condition.variables = {{0, {1}}, {1, {1}}};
   const auto explore_group = [&](std::uint32_t group) {
     return explore_plainly(catalog, {GroupId(group)}, assumptions, {&both}, most_states);
   };

@@ -1,6 +1,6 @@
 // Strings with the same number of ones stand one after the other, in colexicographic order, so that
 // the number of a string is a sum of binomial coefficients: the combinatorial number system (D. E.
-// Knuth, "The Art of Computer Programming", volume 4A, section 7.2.1.3).
+// Knuth, "The Art of Computer Programming", volume 4A, 7.2.1.3).
 
 #include "verify/engine/sparse_strings.h"
 

@@ -151,13 +151,14 @@ constexpr auto property =
             [](const Answered& of) -> const auto& { return of.part.file->path; }),
         member("line", line_number, "The line of the property in the file.",
                [](const Answered& of) { return of.property.line; }),
-        member("kind", words(Property::Kind::always_possible),
-               "can_start: wherever the task does not run, its start is accepted. always: the "
-               "condition "
-               "holds in every state. never: it holds in none. reachable: it holds in some state. "
-               "keeps_running: no move ends the task while it is requested. always_possible: from "
-               "every state one can be reached in which the condition holds.",
-               [](const Answered& of) { return of.property.kind; }),
+        member(
+            "kind", words(Property::Kind::always_possible),
+            "can_start: wherever the task does not run, its start is accepted. always: the "
+            "condition holds in every state. never: it holds in none. reachable: it holds in some "
+            "state. keeps_running: no move ends the task while it is requested. always_possible: "
+            "from every state one can be reached in which the condition holds. Where there is "
+            "`when`, only states count in which that holds.",
+            [](const Answered& of) { return of.property.kind; }),
         member("name", nullable(text), "The name; null if it has none.",
                [](const Answered& of) {
                  return of.property.name.empty() ? nullptr : &of.property.name;

@@ -370,7 +370,7 @@ void add_end(const VerifyResult& result, const Exploration& exploration, Text& t
   const std::string_view color = exploration.decided ? text.style().faint : text.style().warning;
   text.line("");
   text.line(text.style().paint(color, title) + ": " +
-            (exploration.decided ? "ended as all properties were decided; it counts what it visited"
+            (exploration.decided ? "ended as all its properties were decided; it counts what it visited"
                                  : describe_limit(result, exploration)));
 }
 
