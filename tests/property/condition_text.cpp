@@ -64,6 +64,23 @@ class Writer {
     return in_quotes(catalog_.name_of_task(task));
   }
 
+  [[nodiscard]] std::string kinds(const MoveKinds& kinds) const {
+    std::vector<std::string> words;
+    for (const MoveKindWord& known : move_kind_words) {
+      if (!(kinds.*known.kind)) continue;
+      std::vector<std::string> only;
+      const bool is_start = known.kind == &MoveKinds::start;
+      if (is_start || known.kind == &MoveKinds::stop) {
+        for (const TaskId one : is_start ? kinds.start_only : kinds.stop_only) {
+          only.push_back(task(one));
+        }
+      }
+      const std::string word(known.word);
+      words.push_back(only.empty() ? word : word + ": " + list_of(only));
+    }
+    return list_of(words);
+  }
+
  private:
   [[nodiscard]] static std::string joined(const std::vector<std::string>& texts) {
     std::string all;
@@ -124,10 +141,16 @@ std::string yaml_of(const CompiledCatalog& catalog, const Property& property) {
   std::string text = "{name: " + property.name + ", " + std::string(name_of(property.kind)) + ": ";
   if (property.kind == Property::Kind::can_start) {
     text += writer.task(property.task) + ", priority: " + std::to_string(property.priority);
+  } else if (property.kind == Property::Kind::keeps_running) {
+    text += writer.task(property.task);
   } else {
     text += writer.condition(property.condition);
   }
   if (property.when) text += ", when: " + writer.condition(*property.when);
+  if (property.after) text += ", after: " + writer.condition(*property.after);
+  if (property.until) text += ", until: " + writer.condition(*property.until);
+  if (property.within) text += ", within: " + std::to_string(*property.within);
+  if (property.by) text += ", by: " + writer.kinds(*property.by);
   return text + (property.settled ? ", settled: true}" : "}");
 }
 

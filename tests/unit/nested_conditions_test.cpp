@@ -105,8 +105,8 @@ TEST(NestedConditions, QualifyStarts) {
   EXPECT_EQ(words("{can_start: DOCK, priority: 2, when: {not: {running: [DRIVE]}}}"),
             "DOCK can always start with priority 2, when not (DRIVE runs)");
   EXPECT_EQ(findings("{never: {running: [DOCK]}, when: {faulty: none}}"),
-            "3:30-34 error unknown-key: 'when' does not belong to 'never', only to 'can_start' and "
-            "'always'\n");
+            "3:30-34 error unknown-key: 'when' does not belong to 'never', only to 'can_start', "
+            "'always', 'keeps_running' and 'always_possible'\n");
 }
 
 TEST(NestedConditions, AreNotTooDeep) {

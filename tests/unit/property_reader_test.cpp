@@ -476,12 +476,13 @@ TEST(Properties, HaveOneKind) {
       "and 'never'; each needs an entry of its own\n"
       "  3:4-13 the first one is here\n");
   EXPECT_EQ(findings_of_property("name: x"),
-            "3:3-4 error missing-key: a property needs one of 'can_start', 'always', 'never' and "
-            "'reachable'\n");
+            "3:3-4 error missing-key: a property needs one of 'can_start', 'always', 'never', "
+            "'reachable', 'keeps_running' and 'always_possible'\n");
   EXPECT_EQ(findings_of_property("always: ~"), "3:3-9 error missing-key: 'always' has no value\n");
   EXPECT_EQ(findings_of_property("eventually: {running: [LAND]}"),
             "3:3-13 error unknown-key: unknown key 'eventually' in a property; there are 'name', "
-            "'can_start', 'priority', 'always', 'never', 'reachable', 'when' and 'settled'\n");
+            "'can_start', 'priority', 'always', 'never', 'reachable', 'keeps_running', "
+            "'always_possible', 'when', 'settled', 'after', 'until', 'by' and 'within'\n");
   EXPECT_EQ(findings_of_property("can_strat: LAND"),
             "3:3-12 error unknown-key: unknown key 'can_strat' in a property; did you mean "
             "'can_start'?\n");

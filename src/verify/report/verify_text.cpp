@@ -370,8 +370,9 @@ void add_end(const VerifyResult& result, const Exploration& exploration, Text& t
   const std::string_view color = exploration.decided ? text.style().faint : text.style().warning;
   text.line("");
   text.line(text.style().paint(color, title) + ": " +
-            (exploration.decided ? "ended as all its properties were decided; it counts what it visited"
-                                 : describe_limit(result, exploration)));
+            (exploration.decided
+                 ? "ended as all its properties were decided; it counts what it visited"
+                 : describe_limit(result, exploration)));
 }
 
 /// The properties of a file: a table, then what is behind those that are not proved.

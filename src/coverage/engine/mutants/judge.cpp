@@ -375,7 +375,7 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
     verdict.result = MutantVerdict::Result::survived;
     return;
   }
-  if (!found.complete) return give_up(found.end, verdict);
+  if (found.end) return give_up(found.end, verdict);
   if (!is_any_reachable) return;
   for (const CompiledCatalog* const catalog : {&catalog_, &changed}) {
     const GroupId group = catalog->tasks[catalog->task_ids[differences.front().task]].group;
