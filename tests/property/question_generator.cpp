@@ -26,13 +26,13 @@ class QuestionGenerator {
     question_.assumptions = default_assumptions(catalog_);
     if (random_.percent(85)) choose_assumptions();
     find_far_state();
-    if (random_.percent(20)) {
+    if (random_.percent(12)) {
       add_scoped();
       return std::move(question_);
     }
     const std::size_t wanted = 3 + random_.below(5);
     while (question_.properties.size() < wanted) {
-      random_.percent(35) ? add_lasting() : add_property();
+      random_.percent(25) ? add_lasting() : add_property();
     }
     return std::move(question_);
   }
@@ -252,13 +252,13 @@ class QuestionGenerator {
     } else {
       property.kind = Property::Kind::always_possible;
       property.condition = random_.percent(70) ? describe_state(1 + random_.below(3))
-                                               : draw_condition(1 + random_.below(2));
+                                               : draw_nested(1 + random_.below(2));
       property.settled = random_.percent(25);
       if (random_.percent(40)) property.within = static_cast<std::uint32_t>(random_.below(5));
     }
     if (random_.percent(40)) {
       property.when = random_.percent(50) ? describe_state(1 + random_.below(2))
-                                          : draw_condition(1 + random_.below(2));
+                                          : draw_nested(1 + random_.below(2));
     }
     if (random_.percent(60)) property.by = draw_kinds();
     question_.properties.push_back(std::move(property));
@@ -281,15 +281,15 @@ class QuestionGenerator {
     property.kind = random_.percent(50) ? Property::Kind::always : Property::Kind::never;
     property.condition = property.kind == Property::Kind::never
                              ? describe_state(1 + random_.below(5))
-                             : draw_condition(1);
+                             : draw_nested(1);
     if (property.kind == Property::Kind::always && random_.percent(30)) {
-      property.when = draw_condition(1);
+      property.when = draw_nested(1);
     }
     property.after = random_.percent(50) ? describe_state(1 + random_.below(3))
-                                         : draw_condition(1 + random_.below(2));
+                                         : draw_nested(1 + random_.below(2));
     if (random_.percent(70)) {
       property.until = random_.percent(50) ? describe_state(1 + random_.below(2))
-                                           : draw_condition(1 + random_.below(2));
+                                           : draw_nested(1 + random_.below(2));
     }
     property.settled = random_.percent(20);
     question_.properties.push_back(std::move(property));
