@@ -123,6 +123,7 @@ struct ExplorationProgress {
   std::uint64_t transitions = 0;
   std::uint64_t waiting = 0;  ///< states that are not expanded yet
   std::uint32_t depth = 0;
+  std::uint64_t controls = 0;  ///< of states that are kept in sets; 0: they are kept one by one
 };
 
 class BreadthFirst;

@@ -286,7 +286,7 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& 
     const Decisions& decisions = part->controls().stepper().decisions();
     result.decisions_remembered += decisions.remembered();
     result.decisions_computed += decisions.computed();
-    result.controls += part->count_controls();
+    result.controls += part->controls_visited();
     result.regions += part->controls().regions();
     result.diagram_nodes += part->environments().sets().nodes();
   }

@@ -51,13 +51,6 @@ std::uint64_t StatePart::bytes() const {
   return environments_.sets().bytes() + controls_.bytes() + of_layers;
 }
 
-std::uint64_t StatePart::count_controls() const {
-  std::uint64_t count = 0;
-  for (Number control = 0; control < controls_.size(); ++control)
-    count += is_own(control) ? 1U : 0U;
-  return count;
-}
-
 /// Of some states, those that are new.
 void StatePart::add(Number control, Set environments) {
   if (control >= visited_.size()) {
@@ -140,6 +133,7 @@ std::uint64_t StatePart::end_layer() {
       set = environments_.sets().without(set, visited_[control]);
       if (set == Diagrams::empty) continue;
     }
+    if (visited_[control] == Diagrams::empty) ++controls_visited_;
     visited_[control] = environments_.sets().either(visited_[control], set);
     layer.push_back({control, set});
     states += environments_.sets().count(set);

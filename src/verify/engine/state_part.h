@@ -66,7 +66,8 @@ class StatePart {
   [[nodiscard]] const std::vector<Layer>& layers() const { return layers_; }
   [[nodiscard]] std::uint64_t transitions() const { return transitions_; }
   [[nodiscard]] std::uint64_t bytes() const;
-  [[nodiscard]] std::uint64_t count_controls() const;
+  /// The number of its controls that were visited, or are to be.
+  [[nodiscard]] std::uint64_t controls_visited() const { return controls_visited_; }
 
   // Going backward, once all states were visited that count.
 
@@ -126,6 +127,7 @@ class StatePart {
   /// By control: its own ones that have a move to it; found when it is first asked.
   std::vector<std::vector<Controls::Number>> predecessors_;
   std::uint64_t transitions_ = 0;
+  std::uint64_t controls_visited_ = 0;
 };
 
 template <typename Visitor>

@@ -80,6 +80,7 @@ bool StateSpace::may_go_on(std::size_t part) {
 void StateSpace::tell(std::size_t part) {
   told_[part].bytes = parts_[part]->bytes();
   told_[part].transitions = parts_[part]->transitions();
+  told_[part].controls = parts_[part]->controls_visited();
 }
 
 bool StateSpace::look_at_limits() {
@@ -90,9 +91,11 @@ bool StateSpace::look_at_limits() {
   }
   std::uint64_t bytes = 0;
   std::uint64_t transitions = 0;
+  std::uint64_t controls = 0;
   for (const Told& told : told_) {
     bytes += told.bytes;
     transitions += told.transitions;
+    controls += told.controls;
   }
   if (limits_.max_memory > 0 && bytes >= limits_.max_memory) {
     return end_by(ExplorationEnd::max_memory);
@@ -102,7 +105,7 @@ bool StateSpace::look_at_limits() {
   }
   if (!on_progress_) return true;
   return on_progress_({states_, transitions, states_at_depth_.back(),
-                       static_cast<std::uint32_t>(states_at_depth_.size() - 1)}) ||
+                       static_cast<std::uint32_t>(states_at_depth_.size() - 1), controls}) ||
          end_by(ExplorationEnd::stopped);
 }
 

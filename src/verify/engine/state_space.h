@@ -96,6 +96,7 @@ class StateSpace {
   struct Told {
     std::atomic<std::uint64_t> bytes{0};
     std::atomic<std::uint64_t> transitions{0};
+    std::atomic<std::uint64_t> controls{0};
     std::uint32_t asked = 0;  ///< only its own thread counts
   };
   void tell(std::size_t part);
