@@ -139,6 +139,12 @@ void run_property_case(std::uint64_t seed, oracle::Results& results) {
       const PlainRun run = check_script(model, answer.verdict.script, text);
       demand(ends_as_stated(model, *answer.property, run), answer.property->name + ": another end");
       count_sort_of_script(sample.catalog, answer.verdict.script, groups, results.statistics);
+      if (answer.property->kind == Property::Kind::keeps_running) {
+        demand(answer.witness->script.steps.back().expect->stopped ==
+                   std::vector{sample.catalog.tasks[answer.property->task].catalog_index},
+               "the script does not say that the task stopped");
+        results.statistics.count("does not keep running");
+      }
     }
   } catch (const std::exception& error) {
     results.faults.push_back({seed, "seed " + std::to_string(seed) + "\n--- catalog\n" +
@@ -150,7 +156,7 @@ void run_property_case(std::uint64_t seed, oracle::Results& results) {
 const oracle::LowerBound property_bounds[] = {
     {"script", 1000},  {"more than three moves", 60}, {"a due", 100},
     {"two dues", 5},   {"several groups", 40},        {"reactive tasks of other groups", 40},
-    {"timeouts", 100},
+    {"timeouts", 100}, {"does not keep running", 20},
 };
 
 TEST(Witness, OfAPropertyIsAScriptThatSolveRepeats) {

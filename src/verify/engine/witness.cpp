@@ -213,6 +213,8 @@ Expectation expectation_of(const Model& model, const Stepper& stepper, const Pro
   } else if (property->kind == Property::Kind::can_start) {
     expectation.outcome = Outcome::rejected;
     about.insert(property->task);
+  } else if (property->task != none) {
+    about.insert(property->task);
   } else {
     add_tasks(model, property->condition, about);
   }
