@@ -32,7 +32,7 @@ class QuestionGenerator {
     }
     const std::size_t wanted = 3 + random_.below(5);
     while (question_.properties.size() < wanted) {
-      random_.percent(25) ? add_lasting() : add_property();
+      random_.percent(20) ? add_lasting() : add_property();
     }
     return std::move(question_);
   }
@@ -224,7 +224,7 @@ class QuestionGenerator {
     if (property.kind == Property::Kind::can_start) {
       property.task = random_.pick(tasks_);
       property.priority = static_cast<std::int32_t>(random_.between(1, 3));
-      if (random_.percent(50)) property.when = draw_nested(1 + random_.below(2));
+      if (random_.percent(70)) property.when = draw_nested(1 + random_.below(2));
     } else {
       const bool is_always = property.kind == Property::Kind::always;
       if (is_always) {
@@ -303,7 +303,7 @@ class QuestionGenerator {
 
   /// With others in it, up to three deep.
   StateCondition draw_nested(std::size_t parts, std::size_t depth = 0) {
-    const bool is_nested = depth < 3 && random_.percent(depth == 0 ? 55 : 35);
+    const bool is_nested = depth < 3 && random_.percent(depth == 0 ? 65 : 40);
     if (!is_nested) return draw_condition(parts);
     StateCondition condition = draw_condition(random_.below(parts + 1));
     const auto add = [&](std::vector<StateCondition>& inner, std::size_t most) {
