@@ -101,10 +101,10 @@ class StartTest final : public PropertyTest {
   std::uint32_t action_ = 0;
 };
 
-/// Of keeps_running: whether a move of the loaded state may not end the task, which runs there.
-bool may_not_end(const Property& property, const Model& model, const Model::Choice& choice,
-                 const Stepper& state) {
-  const std::uint32_t task = model.find_task(property.task);
+/// Of keeps_running: whether a move of the loaded state may not end the task, by its number in the
+/// model, which runs there.
+bool may_not_end(const Property& property, std::uint32_t task, const Model& model,
+                 const Model::Choice& choice, const Stepper& state) {
   // Rank 0 is that of reactive starts.
   if (state.cells()[task] == 0 || state.request_of(task) <= 1) return false;
   if (property.by && !is_of_kinds(*property.by, choice, model)) return false;
@@ -122,16 +122,18 @@ bool may_not_end(const Property& property, const Model& model, const Model::Choi
   }
 }
 
-/// Of keeps_running: the first move that ends the task after some others.
-Move find_ending(const Property& property, const Model& model, const StateSpace& space,
-                 const std::vector<Move>& moves) {
+/// Of keeps_running: the first move of a packed state that ends the task.
+Move find_ending(const Property& property, const Model& model,
+                 const std::vector<std::uint32_t>& state) {
+  const std::uint32_t task = model.find_task(property.task);
   Stepper stepper(model);
-  space.follow(moves, stepper);
-  for (const Model::Choice& choice : model.moves()) {
-    if (!may_not_end(property, model, choice, stepper) || !stepper.try_move(choice)) continue;
-    if (stepper.cells_after()[model.find_task(property.task)] == 0) return stepper.move_of(choice);
-  }
-  return {};
+  stepper.load(state.data());
+  const auto& moves = model.moves();
+  const auto ends = [&](const Model::Choice& choice) {
+    return may_not_end(property, task, model, choice, stepper) && stepper.try_move(choice) &&
+           stepper.cells_after()[task] == 0;
+  };
+  return stepper.move_of(*std::find_if(moves.begin(), moves.end(), ends));
 }
 
 /// keeps_running: looks for the states before the task stops.
@@ -144,7 +146,7 @@ class KeepTest final : public PropertyTest {
   void on_outcome(std::uint32_t action, const States& states, Controls::Outcome outcome,
                   std::uint32_t depth) override {
     const Model::Choice& choice = part_.controls().actions()[action].choice;
-    if (!may_not_end(property_, model_, choice, control())) return;
+    if (!may_not_end(property_, task_, model_, choice, control())) return;
     if (part_.controls().runs_in(outcome.control, task_)) return;
     note({states.control, counted(states)}, depth);
   }
@@ -246,13 +248,14 @@ Verdict find_verdict(const Property& property, const Model& model, StateSpace& s
   for (const PropertyTest* const test : tests) {
     targets.push_back(test->first() == first ? test->met() : StatePart::Layer());
   }
-  verdict.script = space.path_to(targets, first);
+  StateSpace::Path path = space.path_to(targets, first);
   if (property.kind == Kind::can_start) {
     const std::uint32_t index = model.catalog().tasks[property.task].catalog_index;
-    verdict.script.push_back({Move::Kind::start, index, property.priority});
+    path.moves.push_back({Move::Kind::start, index, property.priority});
   } else if (property.kind == Kind::keeps_running) {
-    verdict.script.push_back(find_ending(property, model, space, verdict.script));
+    path.moves.push_back(find_ending(property, model, path.end));
   }
+  verdict.script = std::move(path.moves);
   return verdict;
 }
 

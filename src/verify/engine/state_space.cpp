@@ -161,7 +161,7 @@ std::vector<Layer> StateSpace::share(const std::vector<Layer>& layers) {
   return shared;
 }
 
-std::vector<Move> StateSpace::path_to(const std::vector<Layer>& targets, std::uint32_t depth) {
+StateSpace::Path StateSpace::path_to(const std::vector<Layer>& targets, std::uint32_t depth) {
   const std::size_t count = parts_.size();
   // By depth and part, states from which targets can be reached in time, before their marks are set
   // and cleared.
@@ -184,9 +184,8 @@ std::vector<Move> StateSpace::path_to(const std::vector<Layer>& targets, std::ui
     set_wanted(after - 1, found);
   }
 
-  std::vector<Move> moves;
+  Path path{{}, model_.packed_first()};
   Stepper stepper(model_, options_);
-  std::vector<std::uint32_t> packed = model_.packed_first();
   std::vector<std::uint8_t> string;
   const auto part_of = [&](const std::uint16_t* cells) {
     StatePart& any = *parts_.front();
@@ -194,7 +193,7 @@ std::vector<Move> StateSpace::path_to(const std::vector<Layer>& targets, std::ui
   };
   bool is_marked = false;
   for (std::uint32_t after = 0;; ++after) {
-    stepper.load(packed.data());
+    stepper.load(path.end.data());
     if (StatePart& part = *parts_.front(); part.has_mark()) {
       const Diagrams& sets = part.environments().sets();
       part.environments().read(stepper.cells(), string);
@@ -202,7 +201,7 @@ std::vector<Move> StateSpace::path_to(const std::vector<Layer>& targets, std::ui
       is_marked = !sets.contains(marks.to_clear, string) &&
                   (is_marked || sets.contains(marks.to_set, string));
     }
-    if (after == depth) return moves;
+    if (after == depth) return path;
     for (const Model::Choice& choice : model_.moves()) {
       if (!stepper.try_move(choice)) continue;
       const std::size_t place = part_of(stepper.cells_after());
@@ -212,22 +211,8 @@ std::vector<Move> StateSpace::path_to(const std::vector<Layer>& targets, std::ui
       if (part.has_mark()) part.environments().write_mark(is_marked, string);
       const Set set = StatePart::environments_in(wanted[after + 1][place], control);
       if (!part.environments().sets().contains(set, string)) continue;
-      moves.push_back(stepper.move_of(choice));
-      stepper.pack(packed.data());
-      break;
-    }
-  }
-}
-
-void StateSpace::follow(const std::vector<Move>& moves, Stepper& stepper) const {
-  std::vector<std::uint32_t> packed = model_.packed_first();
-  stepper.load(packed.data());
-  for (const Move& move : moves) {
-    for (const Model::Choice& choice : model_.moves()) {
-      if (choice.move.kind != move.kind || !stepper.has_move(choice)) continue;
-      if (stepper.move_of(choice) != move || !stepper.take(choice)) continue;
-      stepper.pack(packed.data());
-      stepper.load(packed.data());
+      path.moves.push_back(stepper.move_of(choice));
+      stepper.pack(path.end.data());
       break;
     }
   }

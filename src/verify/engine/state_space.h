@@ -57,11 +57,13 @@ class StateSpace {
 
   // After the run.
 
-  /// The moves of the first shortest path to one of these states, by part, which are new at the
-  /// depth.
-  [[nodiscard]] std::vector<Move> path_to(const std::vector<Layer>& targets, std::uint32_t depth);
-  /// Makes moves from the first state. The stepper has loaded the state after them then.
-  void follow(const std::vector<Move>& moves, Stepper& stepper) const;
+  /// A path from the first state.
+  struct Path {
+    std::vector<Move> moves;
+    std::vector<std::uint32_t> end;  ///< the state after them, packed
+  };
+  /// The first shortest path to one of these states, by part, which are new at the depth.
+  [[nodiscard]] Path path_to(const std::vector<Layer>& targets, std::uint32_t depth);
   /// By part and control, the environments of the states from which one of the goals, by part, can
   /// be reached by moves of some kinds (null: all), in so many moves (nothing: any number). Nothing
   /// if a limit ends it; then is_complete() is false.
