@@ -11,7 +11,7 @@
 
 #include "support/exclusive_tasks.h"
 #include "unit/compiled_fixture.h"
-#include "verify/engine/explore.h"
+#include "verify/engine/verification.h"
 
 namespace cbc::verify_report_test {
 namespace {

@@ -19,7 +19,7 @@
 #include "random.h"
 #include "random_cases.h"
 #include "script_run.h"
-#include "verify/engine/explore.h"
+#include "verify/engine/verification.h"
 #include "verify/engine/witness.h"
 #include "verify_case.h"
 #include "yaml_text.h"
@@ -133,7 +133,7 @@ void run_property_case(std::uint64_t seed, oracle::Results& results) {
       demand(answer.witness.has_value() == answer.verdict.has_script, "no script for a verdict");
       if (!answer.witness) continue;
       text = answer.witness->text;
-      const auto& groups = verification.explorations.at(answer.exploration).groups;
+      const auto& groups = verification.explorations.at(answer.exploration.value()).groups;
       const PlainModel model(sample.catalog, groups, file.assumptions,
                              variables_of(*answer.property));
       const PlainRun run = check_script(model, answer.verdict.script, text);

@@ -12,11 +12,6 @@
 // hit supports are looked at, and a search is needed only where a set hits all supports that are
 // known. Fault trees get their cut sets from a formula of what fails by what; here there is none,
 // as a task may run in more ways than anybody could write down.
-//
-// A search does not go through the situations, of which there may be too many. It looks for an
-// assignment whose behaviors may fit, each by itself. If they fit in no common situation, the
-// situations are split in two by the condition of one of these behaviors, and each part is
-// searched.
 
 #include "verify/engine/cut_sets.h"
 
@@ -30,6 +25,8 @@
 #include <tuple>
 #include <utility>
 
+#include "verify/engine/fitting_search.h"
+
 namespace cbc {
 namespace {
 
@@ -38,118 +35,6 @@ namespace {
 using Item = Id<struct KindOfItem>;
 /// Ascending.
 using ItemSet = std::vector<Item>;
-
-/// Finds assignments that run a task with behaviors that fit in one situation.
-class SupportSearch {
- public:
-  SupportSearch(const SituationSpace& situations, TaskId task)
-      : situations_(situations), search_(situations.catalog(), task, TaskSearch::Wanted::any) {
-    const CompiledCatalog& catalog = situations.catalog();
-    unavailable_.assign(catalog.behaviors.size(), false);
-    refuted_.assign(catalog.variables.size(), 0);
-    const GroupId group = catalog.tasks[task].group;
-    for (BehaviorId id = catalog.group_behaviors[group]; id < catalog.group_behaviors[group + 1];
-         ++id) {
-      unavailable_[id] = !situations.is_available(id);
-      if (!catalog.fitting_values_of(id).empty()) conditional_.push_back(id);
-    }
-  }
-
-  using Answer = TaskSearch::Answer;
-
-  /// Looks for one without the behaviors of a set, in a situation of the sets. `keep_on` is asked
-  /// now and then.
-  [[nodiscard]] Answer find_without(const BehaviorSet& absent, const ValueSets& sets,
-                                    const std::function<bool()>& keep_on) {
-    if (!situations_.find(sets)) return Answer::impossible;
-    rule_out(absent, sets);
-    const Answer answer = search_.find_without(ruled_out_, keep_on);
-    if (answer != Answer::found) return answer;
-    active_ = search_.active();
-    ValueSets fitting = sets;
-    for (const BehaviorId behavior : active_) situations_.restrict(behavior, fitting);
-    if (auto situation = situations_.find(fitting)) {
-      situation_ = std::move(*situation);
-      return Answer::found;
-    }
-    const Split split = choose_split(sets, fitting);
-    const Answer first = find_without(absent, part_of(sets, split, true), keep_on);
-    if (first != Answer::impossible) return first;
-    const Answer second = find_without(absent, part_of(sets, split, false), keep_on);
-    if (second == Answer::impossible) ++refuted_[split.variable];
-    return second;
-  }
-
-  // Of the assignment that was found:
-  [[nodiscard]] const BehaviorSet& active() const { return active_; }
-  [[nodiscard]] const VariableValues& situation() const { return situation_; }
-
- private:
-  void rule_out(const BehaviorSet& absent, const ValueSets& sets) {
-    ruled_out_ = unavailable_;
-    for (const BehaviorId behavior : conditional_) {
-      if (!situations_.may_fit(behavior, sets)) ruled_out_[behavior] = true;
-    }
-    for (const BehaviorId behavior : absent) ruled_out_[behavior] = true;
-  }
-
-  /// The condition of a behavior on a variable.
-  struct Split {
-    BehaviorId behavior;
-    std::uint32_t variable = 0;
-  };
-
-  /// A condition of an active behavior that some situation of the sets does not meet. `fitting`:
-  /// the values with which all active behaviors fit. A variable that has none of these is what the
-  /// behaviors disagree about, so it is taken first; of several that which refuted most, as what
-  /// cannot be settled is then met before all else has been tried.
-  [[nodiscard]] Split choose_split(const ValueSets& sets, const ValueSets& fitting) const {
-    Split best;
-    std::pair<bool, std::uint64_t> best_key;
-    bool has_best = false;
-    for (const BehaviorId behavior : active_) {
-      ValueSets of_one = sets;
-      situations_.restrict(behavior, of_one);
-      for (const FittingValue& condition : situations_.catalog().fitting_values_of(behavior)) {
-        const CompiledVariable& variable = situations_.catalog().variables[condition.variable];
-        const auto begin = variable.first_value;
-        const auto end = begin + variable.value_count;
-        if (std::equal(sets.begin() + begin, sets.begin() + end, of_one.begin() + begin)) continue;
-        const bool is_disputed =
-            std::find(fitting.begin() + begin, fitting.begin() + end, 1) == fitting.begin() + end;
-        const std::pair key(is_disputed, refuted_[condition.variable]);
-        if (has_best && key <= best_key) continue;
-        has_best = true;
-        best = {behavior, condition.variable};
-        best_key = key;
-      }
-    }
-    return best;
-  }
-
-  /// The situations of the sets that meet the condition, or those that do not.
-  [[nodiscard]] ValueSets part_of(const ValueSets& sets, const Split& split, bool meets) const {
-    ValueSets of_one = sets;
-    situations_.restrict(split.behavior, of_one);
-    ValueSets part = sets;
-    const CompiledVariable& variable = situations_.catalog().variables[split.variable];
-    for (std::uint32_t value = variable.first_value;
-         value < variable.first_value + variable.value_count; ++value) {
-      if ((of_one[value] != 0) != meets) part[value] = 0;
-    }
-    return part;
-  }
-
-  const SituationSpace& situations_;
-  TaskSearch search_;
-  std::vector<bool> unavailable_;  ///< by BehaviorId: in every situation
-  BehaviorSet conditional_;        ///< behaviors that fit in some situations only
-  /// By variable: how often there was no assignment on either side of its condition.
-  std::vector<std::uint64_t> refuted_;
-  std::vector<bool> ruled_out_;  ///< by BehaviorId
-  BehaviorSet active_;
-  VariableValues situation_;
-};
 
 /// The supports that are known: of each the items that hit it.
 class KnownSupports {
@@ -191,7 +76,10 @@ class HittingSetTree {
         catalog_(situations.catalog()),
         options_(options),
         first_value_(static_cast<std::uint32_t>(catalog_.behaviors.size())),
-        search_(situations, task) {}
+        first_demand_(catalog_),
+        search_(catalog_, {catalog_.tasks[task].group}) {
+    first_demand_.runs[task] = true;
+  }
 
   CutSets grow() {
     std::set<ItemSet> level{{}};  // in catalog order, as BehaviorIds of a group are
@@ -227,14 +115,17 @@ class HittingSetTree {
     if (has_cut_set(node)) return true;
     ++result_.searches;
     const CutSet set = cut_set_of(node);
-    switch (search_.find_without(set.behaviors, sets_of(set), [this] { return keeps_on(); })) {
-      case SupportSearch::Answer::found:
+    GroupDemand demand = first_demand_;
+    for (const BehaviorId behavior : set.behaviors) demand.rule_out(catalog_, behavior);
+    switch (search_.find(situations_, demand, sets_of(set),
+                         [this](std::uint64_t) { return keeps_on(); })) {
+      case FittingSearch::Answer::found:
         add_children(node, known_.add(items_of_support()), children);
         return true;
-      case SupportSearch::Answer::impossible:
+      case FittingSearch::Answer::impossible:
         add_cut_set(node);
         return true;
-      case SupportSearch::Answer::stopped:
+      case FittingSearch::Answer::stopped:
         break;
     }
     return false;
@@ -342,7 +233,8 @@ class HittingSetTree {
   const CompiledCatalog& catalog_;
   const CutSetOptions& options_;
   const std::uint32_t first_value_;  ///< the first item that is a value
-  SupportSearch search_;
+  GroupDemand first_demand_;         ///< that the task runs
+  FittingSearch search_;
   KnownSupports known_;
   std::vector<ItemSet> found_;
   std::map<Item, std::vector<std::size_t>> by_first_;  ///< places of cut sets in found_

@@ -7,8 +7,8 @@
 
 #include "cbc/event.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "verify/engine/group_search.h"
 #include "verify/engine/situation_space.h"
-#include "verify/engine/task_search.h"
 
 // Faults that together make a task impossible: its minimal cut sets (docs/verify.md, "Cut sets").
 

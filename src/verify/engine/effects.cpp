@@ -20,12 +20,15 @@ namespace {
 class EffectSearch {
  public:
   EffectSearch(const CompiledCatalog& catalog, TaskId task, const EffectOptions& options)
-      : catalog_(catalog), options_(options), search_(catalog, task, TaskSearch::Wanted::best) {
+      : catalog_(catalog),
+        options_(options),
+        search_(catalog, catalog.tasks[task].group, GroupSearch::Wanted::best),
+        demand_(catalog) {
     result_.task = task;
   }
 
   TaskEffects find(const SituationPart& situation, std::span<const VariableValue> changes) {
-    out_ = ruled_out_in(situation);
+    demand_ = demand_in(situation);
     BestAssignment best;
     if (!find_best({}, best)) return std::move(result_);
     result_.best = best;
@@ -39,24 +42,28 @@ class EffectSearch {
   }
 
  private:
-  /// By BehaviorId: those that are not available.
-  [[nodiscard]] std::vector<bool> ruled_out_in(const SituationPart& situation) const {
+  /// That the task runs, with what is available.
+  [[nodiscard]] GroupDemand demand_in(const SituationPart& situation) const {
     const SituationSpace space(catalog_, situation, {});
-    std::vector<bool> out(catalog_.behaviors.size(), false);
-    for (BehaviorId behavior(0); behavior < out.size(); ++behavior) {
-      out[behavior] = !space.is_available(behavior) || !space.may_fit(behavior, space.all());
+    GroupDemand demand(catalog_);
+    demand.runs[result_.task] = true;
+    for (BehaviorId behavior(0); behavior < catalog_.behaviors.size(); ++behavior) {
+      if (space.is_available(behavior) && space.may_fit(behavior, space.all())) continue;
+      demand.rule_out(catalog_, behavior);
     }
-    return out;
+    return demand;
   }
 
   /// False if the search is stopped.
   [[nodiscard]] bool find_best(const BehaviorSet& faults, BestAssignment& best) {
-    std::vector<bool> out = out_;
-    for (const BehaviorId behavior : faults) out[behavior] = true;
-    const auto keep_on = [this] { return !options_.on_progress || options_.on_progress(); };
-    const TaskSearch::Answer answer = search_.find_without(out, keep_on);
-    if (answer == TaskSearch::Answer::stopped) return false;
-    if (answer == TaskSearch::Answer::found) best = search_.assignment();
+    GroupDemand demand = demand_;
+    for (const BehaviorId behavior : faults) demand.rule_out(catalog_, behavior);
+    const auto keep_on = [this](std::uint64_t) {
+      return !options_.on_progress || options_.on_progress();
+    };
+    const GroupSearch::Answer answer = search_.find(demand, keep_on);
+    if (answer == GroupSearch::Answer::stopped) return false;
+    if (answer == GroupSearch::Answer::found) best = search_.assignment();
     return true;
   }
 
@@ -97,13 +104,13 @@ class EffectSearch {
       for (VariableValue& value : changed.variables) {
         if (value.variable == change.variable) value = change;
       }
-      std::vector<bool> out = ruled_out_in(changed);
+      GroupDemand demand = demand_in(changed);
       // What does not depend on the variable stays as it is.
-      if (out == out_) continue;
-      std::swap(out, out_);
+      if (demand == demand_) continue;
+      std::swap(demand, demand_);
       BestAssignment best;
       const bool is_done = find_best({}, best);
-      std::swap(out, out_);
+      std::swap(demand, demand_);
       if (!is_done) return false;
       if (best != result_.best) add({{}, {}, change, best});
     }
@@ -117,8 +124,8 @@ class EffectSearch {
 
   const CompiledCatalog& catalog_;
   const EffectOptions& options_;
-  TaskSearch search_;
-  std::vector<bool> out_;  ///< by BehaviorId: not available in the situation
+  GroupSearch search_;
+  GroupDemand demand_;  ///< in the situation
   TaskEffects result_;
 };
 

@@ -1,11 +1,8 @@
 #pragma once
 
-#include <compare>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,7 +12,6 @@
 #include "verify/engine/breadth_first.h"
 #include "verify/engine/model.h"
 #include "verify/engine/property_test.h"
-#include "verify/engine/witness.h"
 
 namespace cbc {
 
@@ -79,47 +75,5 @@ struct Exploration {
                                   const Assumptions& assumptions,
                                   const std::vector<const Property*>& properties,
                                   const ExplorationOptions& options);
-
-/// What was found out about one property.
-struct Answer {
-  const Property* property = nullptr;
-  std::size_t exploration = 0;  ///< place in Verification::explorations
-  Verdict verdict;
-  std::optional<Witness> witness;  ///< of the verdict's script
-};
-
-/// What was found out about a catalog under the assumptions of one property file, or under the
-/// default ones.
-struct Verification {
-  const PropertyFile* file = nullptr;  ///< null: default assumptions, no properties
-  std::vector<Exploration> explorations;
-  std::vector<Answer> answers;  ///< in the order of the file
-
-  [[nodiscard]] bool is_complete() const;
-};
-
-/// Explores each group of the catalog by itself under the default assumptions.
-[[nodiscard]] Verification verify_groups(const CompiledCatalog& catalog,
-                                         const ExplorationOptions& options);
-
-/// Answers the properties of a file, those of one scope by the same exploration. Without properties
-/// each group is explored by itself under the assumptions of the file.
-[[nodiscard]] Verification verify_properties(const CompiledCatalog& catalog,
-                                             const PropertyFile& file,
-                                             const ExplorationOptions& options);
-
-/// What a property is about. Properties of one scope are answered by the same exploration.
-struct PropertyScope {
-  /// Ascending: those of its tasks and behaviors; if there are none, those whose behaviors name its
-  /// variables; if there are none either, and it is about faults of any behavior, all.
-  std::vector<GroupId> groups;
-  /// The variables that it names, but no behavior of these groups does.
-  std::set<std::uint32_t> variables;
-  /// Of a property with Property::after, whose mark is part of the state: itself.
-  const Property* marked = nullptr;
-
-  auto operator<=>(const PropertyScope&) const = default;
-};
-[[nodiscard]] PropertyScope scope_of(const CompiledCatalog& catalog, const Property& property);
 
 }  // namespace cbc

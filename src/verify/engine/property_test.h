@@ -23,6 +23,7 @@ struct Verdict {
   bool has_script = false;
   /// Proved, but only since no state counts: `when` never holds, or nothing is marked.
   bool is_vacuous = false;
+  bool by_constraints = false;  ///< proved by the constraints alone (constraint_proof.h)
 };
 
 /// Looks in a part of the states for the first ones that decide a property, while a StateSpace

@@ -11,6 +11,7 @@
 #include "core/property/properties.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "verify/engine/explore.h"
+#include "verify/engine/witness.h"
 
 namespace cbc {
 

@@ -168,6 +168,10 @@ constexpr auto property =
         optional("vacuous", always_true,
                  "Proved only since `when` or `after` holds in no reachable state.",
                  [](const Answered& of) { return of.answer.verdict.is_vacuous; }),
+        optional("by_constraints", always_true,
+                 "Proved by the constraints alone: no state was visited for it, unless to find out "
+                 "whether it is vacuous.",
+                 [](const Answered& of) { return of.answer.verdict.by_constraints; }),
         script(
             "A shortest event script that breaks the property, or, for reachable, leads to such a "
             "state: its text, or with --scripts its path.",

@@ -17,9 +17,9 @@
 #include "runtime/compiled/compiled_catalog.h"
 #include "verify/engine/cut_sets.h"
 #include "verify/engine/effects.h"
-#include "verify/engine/explore.h"
 #include "verify/engine/overrides.h"
 #include "verify/engine/same_as.h"
+#include "verify/engine/verification.h"
 
 // The reports of `cbc verify`.
 

@@ -65,6 +65,11 @@ std::string memory_with_unit(std::uint64_t bytes) {
   return std::to_string(bytes) + std::string(unit > 0 ? units.substr(unit, 1) : "");
 }
 
+/// The exploration that decided a property.
+const Exploration& exploration_of(const VerifyPart& part, const Answer& answer) {
+  return part.verification.explorations[*answer.exploration];
+}
+
 /// How a property is violated: "violated after 4 events".
 std::string describe_violation(const Answer& answer, const Exploration& exploration) {
   if (!answer.witness) {
@@ -119,7 +124,12 @@ std::string describe_vacuity(const Property& property) {
 
 std::string describe_answer(const VerifyResult& result, const VerifyPart& part,
                             const Answer& answer) {
-  const Exploration& exploration = part.verification.explorations[answer.exploration];
+  const std::string vacuity =
+      answer.verdict.is_vacuous ? ", but only since " + describe_vacuity(*answer.property) : "";
+  if (answer.verdict.by_constraints) {
+    return "proved by the constraints alone, without any state" + vacuity;
+  }
+  const Exploration& exploration = exploration_of(part, answer);
   switch (answer.verdict.result) {
     case Verdict::Result::undecided:
       return "undecided: " + describe_limit(result, exploration);
@@ -129,9 +139,7 @@ std::string describe_answer(const VerifyResult& result, const VerifyPart& part,
       break;
   }
   if (!answer.witness) {
-    return fmt::format(
-        "proved for {}{}", quantity(exploration.states, "reachable state"),
-        answer.verdict.is_vacuous ? ", but only since " + describe_vacuity(*answer.property) : "");
+    return fmt::format("proved for {}{}", quantity(exploration.states, "reachable state"), vacuity);
   }
   const std::size_t events = answer.verdict.script.size();
   return events == 0 ? "proved in the first state" : "proved after " + quantity(events, "event");
@@ -327,17 +335,28 @@ void add_table(const VerifyResult& result, const VerifyPart& part, Text& text) {
   for (const ReportedAnswer& reported : part.answers) {
     const Answer& answer = *reported.answer;
     const Verdict::Result found = answer.verdict.result;
-    const Exploration& exploration = part.verification.explorations[answer.exploration];
+    const auto count = [&](auto Exploration::*number) {
+      return answer.exploration ? std::to_string(exploration_of(part, answer).*number) : "";
+    };
     table.add({answer.property->line,
                {name_of(found), color_of(found, text.style())},
-               exploration.states,
-               exploration.transitions,
-               exploration.depth,
+               count(&Exploration::states),
+               count(&Exploration::transitions),
+               count(&Exploration::depth),
                answer.witness ? std::to_string(answer.verdict.script.size()) : "",
                title_of(*result.catalog, *answer.property)});
   }
   text.line("");
   text.add(table.text());
+  std::vector<std::size_t> lines;
+  for (const ReportedAnswer& reported : part.answers) {
+    if (reported.answer->verdict.by_constraints) lines.push_back(reported.answer->property->line);
+  }
+  if (lines.empty()) return;
+  text.line("");
+  text.line(fmt::format("{} {}: proved by the constraints alone, without any state",
+                        lines.size() == 1 ? "line" : "lines",
+                        join(lines, ", ", [](std::size_t line) { return std::to_string(line); })));
 }
 
 /// A promise that says nothing.
@@ -355,7 +374,7 @@ void add_violation(const VerifyResult& result, const VerifyPart& part,
   text.title(fmt::format("{}:{}: {}", printable(part.file->path), property.line,
                          title_of(*result.catalog, property)));
   if (!property.name.empty()) text.line(describe_property(*result.catalog, property));
-  const Exploration& exploration = part.verification.explorations[answer.exploration];
+  const Exploration& exploration = exploration_of(part, answer);
   text.line(text.style().paint(text.style().bad, describe_violation(answer, exploration)) +
             (reported.script_path ? "; see " + printable(*reported.script_path) : ""));
   if (!answer.verdict.script.empty()) text.add("\n" + reported.replay->text);
