@@ -109,6 +109,7 @@ function isOptional(object, name) {
     'alternatives',
     'assumptions',
     'best',
+    'by_constraints',
     'complete_order',
     'due',
     'faults_except',
