@@ -2,12 +2,10 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -15,16 +13,16 @@
 
 #include "core/check/together.h"
 #include "core/command_line/command_line.h"
-#include "core/files/file_set.h"
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
 #include "core/property/properties.h"
-#include "core/property/property_reader.h"
 #include "core/report/words.h"
-#include "core/support/system.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "verify/found_scripts.h"
+#include "verify/named_in_options.h"
+#include "verify/question_loader.h"
 #include "verify/report/verify_report.h"
 #include "verify/verify.h"
 
@@ -32,186 +30,7 @@ namespace cbc::cli {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 using Clock = std::chrono::steady_clock;
-
-/// What a command line asks about, checked before anything is explored.
-struct VerifyQuestions {
-  std::shared_ptr<const CompiledCatalog> catalog;
-  std::vector<std::unique_ptr<const PropertyFile>> files;
-  std::shared_ptr<const CompiledCatalog> old_catalog;  ///< to compare with, or null
-};
-
-/// Reads the files of a command line. Findings and other problems go to standard error.
-class QuestionLoader {
- public:
-  /// `paths`: a catalog, which may be missing if the property files name theirs, then property
-  /// files; "-" is standard input. `old_catalog`: to compare with. Empty if anything is wrong.
-  [[nodiscard]] std::optional<VerifyQuestions> load(const std::vector<std::string>& paths,
-                                                    const std::optional<std::string>& old_catalog);
-
-  /// The findings about the files.
-  [[nodiscard]] const std::vector<Diagnostic>& findings() const { return files_.findings(); }
-
- private:
-  void add_first(const std::string& path);
-  void add_path(const std::string& path);
-  void add_properties(const InputFile& file);
-  void take_catalog(const std::shared_ptr<const CheckedCatalog>& catalog);
-  [[nodiscard]] bool find_catalog(const InputFile& file);
-  void refuse(const InputFile& file, const char* what);
-
-  FileSet files_;
-  VerifyQuestions questions_;
-  bool is_given_ = false;                     ///< the catalog, on the command line
-  std::optional<std::string> named_catalog_;  ///< path of the one that the property files name
-  bool has_failed_ = false;
-};
-
-std::optional<VerifyQuestions> QuestionLoader::load(const std::vector<std::string>& paths,
-                                                    const std::optional<std::string>& old_catalog) {
-  add_first(paths.front());
-  for (std::size_t place = 1; place < paths.size(); ++place) add_path(paths[place]);
-  if (old_catalog) {
-    if (const auto catalog = files_.load(*old_catalog)) questions_.old_catalog = catalog->compiled;
-    if (questions_.old_catalog == nullptr) has_failed_ = true;
-  }
-  files_.print_findings();
-  if (has_failed_) return std::nullopt;
-  return std::move(questions_);
-}
-
-void QuestionLoader::add_first(const std::string& path) {
-  const auto first = files_.read(path);
-  if (first && first->is(FileKind::properties)) return add_properties(*first);
-  if (first && first->is(FileKind::script)) {
-    return refuse(*first, "is a script; expected a catalog or a property file here");
-  }
-  is_given_ = true;
-  if (first) take_catalog(files_.load(*first));
-  has_failed_ = questions_.catalog == nullptr;
-}
-
-void QuestionLoader::add_path(const std::string& path) {
-  const auto file = files_.read(path);
-  if (!file) {
-    has_failed_ = true;
-  } else if (file->is(FileKind::catalog) || file->is(FileKind::compiled)) {
-    refuse(*file, "is a catalog; expected a property file here (a catalog goes first)");
-  } else if (file->is(FileKind::script)) {
-    refuse(*file, "is a script; expected a property file here");
-  } else {
-    add_properties(*file);
-  }
-}
-
-void QuestionLoader::refuse(const InputFile& file, const char* what) {
-  complain("{} {}", quote(file.name), what);
-  has_failed_ = true;
-}
-
-void QuestionLoader::take_catalog(const std::shared_ptr<const CheckedCatalog>& catalog) {
-  if (catalog != nullptr) questions_.catalog = catalog->compiled;
-}
-
-void QuestionLoader::add_properties(const InputFile& file) {
-  std::optional<PropertyFile> properties;
-  if (find_catalog(file)) properties = files_.read_properties(file, *questions_.catalog);
-  if (properties && lacks_properties(*file.document, *properties)) {
-    return refuse(file, "has no property, so there is nothing to prove");
-  }
-  if (properties) {
-    questions_.files.push_back(std::make_unique<const PropertyFile>(std::move(*properties)));
-  } else {
-    has_failed_ = true;
-  }
-}
-
-/// Whether there is a usable catalog for this property file.
-bool QuestionLoader::find_catalog(const InputFile& file) {
-  if (is_given_) return questions_.catalog != nullptr;
-  const std::optional<NamedCatalog> named = FileSet::expect_catalog(file);
-  if (!named) return false;
-  if (!named_catalog_) {
-    named_catalog_ = named->path;
-    take_catalog(files_.load(*named));
-  } else if (named->path != *named_catalog_ && !is_same_file(*named_catalog_, named->path)) {
-    complain("{}: this property file is about another catalog, {}, than those before it, {}",
-             named->place, quote(named->path), quote(*named_catalog_));
-    return false;
-  }
-  return questions_.catalog != nullptr;
-}
-
-/// The tasks that are named in an option. Empty if the catalog lacks one, which is reported.
-std::optional<std::vector<TaskId>> find_tasks(const CompiledCatalog& catalog,
-                                              std::string_view option,
-                                              const std::vector<std::string>& names) {
-  std::vector<TaskId> tasks;
-  for (const std::string& name : names) {
-    const auto place = catalog.find_task(name);
-    if (!place) {
-      std::vector<std::string_view> known;
-      for (const std::string_view task : catalog.task_names) known.push_back(task);
-      complain("{}: catalog {} has no task {}{}", option, quote(catalog.file), quote(name),
-               did_you_mean(nearest(name, known)));
-      return std::nullopt;
-    }
-    tasks.push_back(catalog.task_ids[*place]);
-  }
-  return tasks;
-}
-
-/// Adds KEY=VALUE to a situation. Returns what is wrong, or nothing.
-std::string add_to_situation(const CompiledCatalog& catalog, const std::string& entry,
-                             SituationPart& situation) {
-  const std::size_t equals = entry.find('=');
-  const std::string key = entry.substr(0, equals);
-  const std::string value = entry.substr(equals + 1);
-  if (const auto variable = catalog.find_variable(key)) {
-    for (const VariableValue& given : situation.variables) {
-      if (given.variable == *variable) return printable(key) + ": expected once, found twice";
-    }
-    if (const auto place = catalog.find_value(*variable, value)) {
-      situation.variables.push_back({*variable, *place});
-      return {};
-    }
-    std::vector<std::string> values;
-    for (std::uint32_t place = 0; place < catalog.variables[*variable].value_count; ++place) {
-      values.emplace_back(catalog.name_of_value({*variable, place}));
-    }
-    return fmt::format("{}: expected {}, found {}", printable(key), join_with_or(values),
-                       quote(value));
-  }
-  if (const auto behavior = catalog.find_behavior(key)) {
-    if (value != "true" && value != "false") {
-      return fmt::format("{}: expected true or false, found {}", printable(key), quote(value));
-    }
-    situation.behaviors.push_back({catalog.behavior_ids[*behavior], value == "true"});
-    return {};
-  }
-  std::vector<std::string_view> known;
-  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
-    known.push_back(catalog.name_of_variable(variable));
-  }
-  for (const std::string_view behavior : catalog.behavior_names) known.push_back(behavior);
-  return fmt::format("catalog {} has no situation variable or behavior {}{}", quote(catalog.file),
-                     quote(key), did_you_mean(nearest(key, known)));
-}
-
-/// The name of a script: "robot.12.mission.yaml" for line 12 of robot.properties.yaml.
-std::string script_name(const Property& property, const PropertyFile& file,
-                        std::set<std::string>& taken) {
-  fs::path stem = file.path == display_name("-") ? fs::path("stdin") : fs::path(file.path).stem();
-  if (stem.extension() == ".properties") stem = stem.stem();
-  const std::string first = fmt::format("{}.{}", stem.string(), property.line);
-  std::string name = first;
-  for (int number = 2; !taken.insert(name).second; ++number) {
-    name = fmt::format("{}-{}", first, number);
-  }
-  return name + ".mission.yaml";
-}
 
 ExplorationLimits limits_of(const StateLimits& limits) {
   return {limits.max_states, limits.memory(), limits.seconds()};
@@ -248,7 +67,11 @@ class Call {
     if (options_.overrides) {
       if (const int status = find_overrides(); status != exit_ok) return status;
     }
-    if (const int status = replay_scripts(); status != exit_ok) return status;
+    if (const int status = replay_answers(options_, result_); status != exit_ok) return status;
+    if (options_.html) {
+      const int status = write_output(*options_.html, page());
+      if (status != exit_ok) return status;
+    }
     if (const int status = compare(); status != exit_ok) return status;
     return report();
   }
@@ -446,52 +269,7 @@ class Call {
         compare_catalogs(old_catalog, catalog_, reported.assumptions, of_comparison, comparison_);
     progress.clear();
     if (reported.comparison.error) return complain(*reported.comparison.error);
-    for (GroupComparison& group : reported.comparison.groups) {
-      for (EventDifference& difference : group.differences) {
-        const int status = report_difference(difference, reported);
-        if (status != exit_ok) return status;
-      }
-    }
-    return exit_ok;
-  }
-
-  [[nodiscard]] Style style_of_replays() const {
-    return options_.format == "text" ? style_for(options_.output) : plain_style();
-  }
-
-  int report_difference(EventDifference& difference, ReportedComparison& reported) {
-    const Style style = style_of_replays();
-    ReportedDifference& added = reported.differences.emplace_back();
-    added.difference = &difference;
-    Script& of_new = difference.witness.script;
-    Script& of_old = difference.old_script;
-    of_new.file = "difference";
-    of_old.file = of_new.file;
-    const Microseconds last_move = time_of_last_move(difference);
-    added.with_new = replay_difference(catalog_, of_new, style, last_move);
-    added.with_old = replay_difference(*questions_.old_catalog, of_old, style, last_move);
-    if (!options_.scripts) return exit_ok;
-    const std::size_t number = reported.differences.size();
-    const std::string name = number == 1 ? "difference" : fmt::format("difference-{}", number);
-    int status = write_script_of(name, difference.witness.text, added.script_path);
-    if (status == exit_ok && difference.old_text) {
-      status = write_script_of(name + ".old", *difference.old_text, added.old_script_path);
-    }
-    return status;
-  }
-
-  [[nodiscard]] int write_script_of(const std::string& name, const std::string& text,
-                                    std::optional<std::string>& path) const {
-    path = (fs::path(*options_.scripts) / (name + ".mission.yaml")).string();
-    return write_output(*path, text);
-  }
-
-  /// No event of the script is at or after the time of a last move that the clock makes.
-  static Microseconds time_of_last_move(const EventDifference& difference) {
-    const auto& steps = difference.old_script.steps;
-    const bool is_due = difference.moves.back().kind == Move::Kind::due;
-    if (steps.empty()) return 0;
-    return steps.back().time.value_or(0) + (is_due ? 1 : 0);
+    return replay_differences(options_, result_);
   }
 
   static std::string name_groups(const std::vector<GroupId>& groups) {
@@ -622,49 +400,9 @@ class Call {
     return {task, order, cbc::find_cut_sets(in, task, of_search), of_search.in_some_situation};
   }
 
-  /// Runs all counterexamples and witnesses, and writes them to files.
-  int replay_scripts() {
-    const Style style = style_of_replays();
-    std::set<std::string> taken;
-    for (VerifyPart& part : result_.parts) {
-      for (Answer& answer : part.verification.answers) {
-        ReportedAnswer& reported = part.answers.emplace_back();
-        reported.answer = &answer;
-        if (!answer.witness) continue;
-        answer.witness->script.file =
-            fmt::format("{}:{}: {}", part.file->path, answer.property->line,
-                        title_of(catalog_, *answer.property));
-        reported.replay = replay_witness(catalog_, *answer.witness, *answer.property, style);
-        if (const int status = check_replay(answer, *reported.replay); status != exit_ok) {
-          return status;
-        }
-        if (!options_.scripts) continue;
-        const fs::path path =
-            fs::path(*options_.scripts) / script_name(*answer.property, *part.file, taken);
-        reported.script_path = path.string();
-        const int status = write_output(*reported.script_path, answer.witness->text);
-        if (status != exit_ok) return status;
-      }
-    }
-    if (!options_.html) return exit_ok;
-    return write_output(*options_.html, page());
-  }
-
   [[nodiscard]] std::string page() const {
     if (result_.effects) return effects_to_html(result_);
     return result_.overrides ? overrides_to_html(result_) : verify_to_html(result_);
-  }
-
-  static int check_replay(const Answer& answer, const Replay& replayed) {
-    if (replayed.result.failed == 0 && replayed.result.status == Coordinator::Status::ok) {
-      return exit_ok;
-    }
-    complain("{}: this script does not end as it should", printable(answer.witness->script.file));
-    complain(
-        "this is a bug in cbc, not in the catalog; please report it with the catalog and "
-        "this script:");
-    fmt::print(stderr, "{}", answer.witness->text);
-    return exit_internal;
   }
 
   int report() {
