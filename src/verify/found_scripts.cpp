@@ -7,12 +7,14 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/core.h>
 
 #include "core/command_line/command_line.h"
 #include "core/files/output.h"
 #include "core/files/read.h"
+#include "core/property/properties.h"
 #include "core/support/system.h"
 #include "runtime/base/text.h"
 
@@ -26,12 +28,18 @@ Style style_of_replays(const VerifyOptions& options) {
   return options.format == "text" ? style_for(options.output) : plain_style();
 }
 
+/// How the names of the scripts that are about a file begin: "robot" for robot.properties.yaml.
+std::string stem_of(std::string_view file) {
+  if (file == display_name("-")) return "stdin";
+  fs::path stem = fs::path(file).stem();
+  if (stem.extension() == ".properties") stem = stem.stem();
+  return stem.string();
+}
+
 /// The name of a script: "robot.12" for line 12 of robot.properties.yaml.
 std::string script_name(const Property& property, const PropertyFile& file,
                         std::set<std::string>& taken) {
-  fs::path stem = file.path == display_name("-") ? fs::path("stdin") : fs::path(file.path).stem();
-  if (stem.extension() == ".properties") stem = stem.stem();
-  const std::string first = fmt::format("{}.{}", stem.string(), property.line);
+  const std::string first = fmt::format("{}.{}", stem_of(file.path), property.line);
   std::string name = first;
   for (int number = 2; !taken.insert(name).second; ++number) {
     name = fmt::format("{}-{}", first, number);
@@ -62,6 +70,25 @@ Microseconds time_of_last_move(const EventDifference& difference) {
   const bool is_due = difference.moves.back().kind == Move::Kind::due;
   if (steps.empty()) return 0;
   return steps.back().time.value_or(0) + (is_due ? 1 : 0);
+}
+
+/// `groups`: of the exploration, which is one.
+int replay_one_outcome(const VerifyOptions& options, const CompiledCatalog& catalog,
+                       const std::vector<GroupId>& groups, const StatedAssumptions& stated,
+                       ReportedOutcome& reported) {
+  const std::string_view file = stated.file.empty() ? catalog.file : stated.file;
+  const Property property = property_of(catalog, groups.front(), *reported.outcome);
+  Witness& witness = reported.witness;
+  witness = make_witness(catalog, groups, stated.assumptions, reported.outcome->script, &property,
+                         fmt::format("Outcome {} of {}\nRun it with: cbc solve CATALOG FILE\n",
+                                     reported.number, printable(file)));
+  witness.script.file = fmt::format("{}: outcome {}", file, reported.number);
+  const RunResult run = replay_outcome(catalog, witness, reported.moves);
+  if (const int status = check_replay(witness, run); status != exit_ok) return status;
+  if (!options.scripts) return exit_ok;
+  return write_script_of(*options.scripts,
+                         fmt::format("{}.outcome-{}", stem_of(file), reported.number), witness.text,
+                         reported.script_path);
 }
 
 int replay_one_difference(const VerifyOptions& options, const CompiledCatalog& catalog,
@@ -108,6 +135,28 @@ int replay_answers(const VerifyOptions& options, VerifyResult& result) {
             write_script_of(*options.scripts, name, answer.witness->text, reported.script_path);
       }
       if (status != exit_ok) return status;
+    }
+  }
+  return exit_ok;
+}
+
+int replay_outcomes(const VerifyOptions& options, VerifyResult& result) {
+  const CompiledCatalog& catalog = *result.catalog;
+  std::size_t number = 0;
+  for (VerifyPart& part : result.parts) {
+    const StatedAssumptions stated =
+        part.file ? StatedAssumptions{part.file->assumptions, part.file->path}
+                  : StatedAssumptions{default_assumptions(catalog), {}};
+    for (const Exploration& exploration : part.verification.explorations) {
+      auto& outcomes = part.outcomes.emplace_back();
+      for (const ReachableOutcome& outcome : *exploration.outcomes) {
+        ReportedOutcome& reported = outcomes.emplace_back();
+        reported.outcome = &outcome;
+        reported.number = ++number;
+        const int status =
+            replay_one_outcome(options, catalog, exploration.groups, stated, reported);
+        if (status != exit_ok) return status;
+      }
     }
   }
   return exit_ok;

@@ -11,6 +11,9 @@ namespace cbc::cli {
 /// Of all counterexamples and witnesses. Returns the exit status, and prints what is wrong.
 [[nodiscard]] int replay_answers(const VerifyOptions& options, VerifyResult& result);
 
+/// The same of all outcomes.
+[[nodiscard]] int replay_outcomes(const VerifyOptions& options, VerifyResult& result);
+
 /// The same of the differences of two catalogs.
 [[nodiscard]] int replay_differences(const VerifyOptions& options, VerifyResult& result);
 

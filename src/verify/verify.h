@@ -29,6 +29,7 @@ struct VerifyOptions {
   std::vector<std::string> situation;  ///< KEY=VALUE
   bool effects = false;
   bool overrides = false;
+  bool outcomes = false;
   bool situations = false;
   std::optional<std::string> fail_on;  ///< "lost", "degraded:60"
 };

@@ -37,8 +37,7 @@ constexpr const char* verify_examples =
     "  cbc verify robot.yaml                     what can happen at all\n"
     "  cbc verify robot.properties.yaml          prove properties, or break them\n"
     "  cbc verify new.yaml --same-as old.yaml    do both decide alike, always?\n"
-    "  cbc verify robot.yaml --cut-sets DRIVE    faults that together end DRIVE\n"
-    "  cbc verify robot.yaml --effects           what each fault does\n";
+    "  cbc verify robot.yaml --cut-sets DRIVE    faults that together end DRIVE\n";
 
 constexpr const char* verify_footer =
     "Exit status: 0 all is proved, 1 a property is violated or undecided, the catalogs differ, "
@@ -79,6 +78,9 @@ void add_verify_command(Program& program) {
 
   command.option("--refused", options->refused, name_of("TASK", ValueKind::task),
                  "Show how a start of TASK can be refused; repeatable");
+  command.flag("--outcomes", options->outcomes, "List all that events can come to, with scripts")
+      .not_with({"--cut-sets", "--effects", "--html", "--overrides", "--refused", "--same-as"})
+      .only_with_values("--format", {"text", "json"});
 
   command.group("Comparison");
   command.option("--same-as", options->same_as, input("OLD", ValueKind::catalog),

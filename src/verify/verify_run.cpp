@@ -68,6 +68,9 @@ class Call {
       if (const int status = find_overrides(); status != exit_ok) return status;
     }
     if (const int status = replay_answers(options_, result_); status != exit_ok) return status;
+    if (options_.outcomes) {
+      if (const int status = replay_outcomes(options_, result_); status != exit_ok) return status;
+    }
     if (options_.html) {
       const int status = write_output(*options_.html, page());
       if (status != exit_ok) return status;
@@ -105,16 +108,26 @@ class Call {
     return exit_ok;
   }
 
+  /// Only what property files assume counts.
+  void leave_out_properties() {
+    for (auto& file : questions_.files) {
+      PropertyFile without = *file;
+      without.properties.clear();
+      file = std::make_unique<const PropertyFile>(std::move(without));
+    }
+  }
+
   /// Whatever can be wrong is said before the long work.
   int check() {
     if (const int status = add_refused(); status != exit_ok) return status;
+    if (options_.outcomes) leave_out_properties();
     const VerifyFormat& format = *find_named(verify_formats(), options_.format);
     const bool has_properties =
         std::all_of(questions_.files.begin(), questions_.files.end(),
                     [](const auto& file) { return !file->properties.empty(); }) &&
         !questions_.files.empty();
     const char* const needs_properties = format.needs_tests && !options_.same_as   ? "--format"
-                                         : options_.scripts && !options_.same_as   ? "--scripts"
+                                         : options_.scripts && !finds_scripts()    ? "--scripts"
                                          : options_.html && !asks_only_otherwise() ? "--html"
                                                                                    : nullptr;
     if (needs_properties != nullptr && !has_properties) {
@@ -127,6 +140,7 @@ class Call {
     const char* const takes_one_file = result_.wants_cut_sets ? "--cut-sets"
                                        : options_.effects     ? "--effects"
                                        : options_.overrides   ? "--overrides"
+                                       : options_.outcomes    ? "--outcomes"
                                        : options_.same_as     ? "--same-as"
                                                               : nullptr;
     if (takes_one_file != nullptr && questions_.files.size() > 1) {
@@ -180,6 +194,9 @@ class Call {
   /// Whether property files only say what is assumed.
   [[nodiscard]] bool asks_only_otherwise() const { return options_.effects || options_.overrides; }
 
+  /// Whether there are scripts without properties.
+  [[nodiscard]] bool finds_scripts() const { return options_.same_as || options_.outcomes; }
+
   /// The tasks that the assumptions let be requested, in catalog order.
   [[nodiscard]] std::vector<TaskId> requestable_tasks() const {
     const Assumptions assumptions = questions_.files.empty()
@@ -219,6 +236,7 @@ class Call {
     of_verification.limits = result_.limits;
     of_verification.jobs = thread_count(options_.jobs);
     of_verification.reduce = options_.reduce;
+    of_verification.outcomes = options_.outcomes;
     std::vector<GroupId> explored;
     std::uint64_t states = 0;
     Clock::time_point begin;
@@ -317,7 +335,7 @@ class Call {
     const bool is_about_groups =
         std::any_of(result_.parts.begin(), result_.parts.end(),
                     [](const VerifyPart& part) { return part.is_about_groups(); });
-    if (is_about_groups && options_.format == "text") {
+    if (is_about_groups && options_.format == "text" && !options_.outcomes) {
       const Clock::time_point begin = Clock::now();
       for (const TaskId task : catalog_.task_ids) {
         if (catalog_.tasks[task].start_on_request == 0) continue;

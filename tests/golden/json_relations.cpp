@@ -290,6 +290,23 @@ class Relations {
     expect(is_compared || comparison.at("result") != "proved", "proved without an event");
   }
 
+  /// Each set of tasks and behaviors once, none before its tasks and behaviors are known.
+  void check_outcomes(const Json& exploration) {
+    std::uint64_t length = 0;
+    std::set<Json> known;
+    for (const Json& outcome : exploration.at("outcomes")) {
+      expect(outcome.at("length") >= length, "a shorter outcome comes later");
+      length = outcome.at("length");
+      expect(length <= exploration.at("depth"), "an outcome is deeper than all states");
+      expect(known.insert(outcome.at("running")).second, "an outcome comes twice");
+      for (const auto& [task, behavior] : outcome.at("running").items()) {
+        expect(exploration.at("runs").at(task) <= length, "a task runs before it runs: " + task);
+        expect(exploration.at("active").at(behavior.get<std::string>()) <= length,
+               "a behavior is active before it is active");
+      }
+    }
+  }
+
   void check_exploration(const Json& exploration) {
     const Json& tasks = exploration.at("tasks");
     const Json& runs = exploration.at("runs");
@@ -307,6 +324,7 @@ class Relations {
       expect(std::find(tasks.begin(), tasks.end(), name) != tasks.end(),
              "a task runs that is none of the group: " + name);
     }
+    if (exploration.contains("outcomes")) check_outcomes(exploration);
     for (const Json& pair : exploration.at("together")) {
       const std::uint64_t moves = pair.at(2);
       for (const std::size_t place : {std::size_t{0}, std::size_t{1}}) {

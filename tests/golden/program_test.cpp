@@ -359,7 +359,7 @@ TEST_P(ExcerptsOf, AreWhatTheProgramPrints) {
 
 TEST(Pages, ShowFilesAsTheyAre) {
   const std::string root = CBC_SOURCE_DIR;
-  for (const char* const name : {"verify_conditions", "verify_lasting"}) {
+  for (const char* const name : {"verify_conditions", "verify_lasting", "verify_outcomes_link"}) {
     const std::string file =
         test::read_file(root + "/tests/golden/cases/" + name + "/robot.properties.yaml");
     EXPECT_NE(test::read_file(root + "/docs/verify.md").find("```yaml\n" + file + "```\n"),
@@ -389,7 +389,7 @@ INSTANTIATE_TEST_SUITE_P(Pages, ExcerptsOf,
                                          std::pair("docs/coverage.md", 2U),
                                          std::pair("docs/recipes.md", 19U),
                                          std::pair("docs/sweeps.md", 1U),
-                                         std::pair("docs/verify.md", 6U)));
+                                         std::pair("docs/verify.md", 7U)));
 
 /// One screen: `man` has the rest.
 TEST(Help, FitsOnAScreen) {

@@ -1,5 +1,6 @@
 // `cbc verify` from outside: the files that it writes, what must not depend on the machine, and the
 // properties of the published catalogs.
+#include <cstddef>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -48,6 +49,29 @@ TEST_F(Verify, WritesScriptsThatSolveRepeats) {
                    "robot.18.mission.yaml", "robot.5.mission.yaml", "robot.9.mission.yaml"}));
   EXPECT_NE(result.out.find("violated after 2 events; see " + folder + "/robot.5.mission.yaml\n"),
             std::string::npos);
+}
+
+TEST_F(Verify, WritesTheScriptsOfOutcomes) {
+  const std::string cart = "tests/golden/cases/verify_outcomes/cart.properties.yaml";
+  const Result result = verify({cart, "--outcomes", "--scripts", scratch.path()});
+  EXPECT_EQ(result.status, 0) << result.err;
+  const nlohmann::json report =
+      nlohmann::json::parse(verify({cart, "--outcomes", "--format", "json"}).out);
+  std::size_t outcomes = 0;
+  for (const auto& group : report["groups"]) {
+    for (const auto& outcome : group["outcomes"]) {
+      const std::string name = "cart.outcome-" + std::to_string(++outcomes) + ".mission.yaml";
+      EXPECT_EQ(scratch.read(name), outcome["script"]);
+      const Result solved =
+          run({{"solve", "tests/golden/cases/verify_outcomes/catalog.yaml", scratch / name},
+               CBC_SOURCE_DIR});
+      EXPECT_EQ(solved.status, 0) << solved.out << solved.err;
+      EXPECT_NE(solved.out.find("expectations: 1 passed, 0 failed"), std::string::npos);
+    }
+  }
+  EXPECT_GT(outcomes, 5U);
+  const std::string names = scratch / "cart.outcome-1.mission.yaml";
+  EXPECT_NE(result.out.find("\nscripts: " + names + " to "), std::string::npos) << result.out;
 }
 
 TEST_F(Verify, HasAPageOfEffects) {

@@ -33,6 +33,7 @@ class PlainSearch {
         has_counted_(properties.size(), false) {
     result_.groups = groups;
     result_.verdicts.resize(properties.size());
+    result_.outcomes.emplace();
   }
 
   Exploration run(std::uint64_t max_states) && {
@@ -178,9 +179,35 @@ class PlainSearch {
            (!property.when || model_.holds(*property.when, node.state));
   }
 
+  /// Of the first state with these tasks and behaviors.
+  void add_outcome(std::size_t place) {
+    const Snapshot& state = nodes_[place].state;
+    ReachableOutcome outcome;
+    for (const TaskId task : model_.tasks()) {
+      const auto* const running = find_running(state, task);
+      if (running == nullptr) continue;
+      const BehaviorId behavior = catalog_.values[task][running->value_index].behavior;
+      outcome.running.emplace_back(catalog_.tasks[task].catalog_index,
+                                   catalog_.behaviors[behavior].catalog_index);
+    }
+    if (!outcomes_.insert(outcome.running).second) return;
+    outcome.script = script_to(place);
+    for (const std::uint32_t variable : model_.variables()) {
+      outcome.situation.variables.push_back({variable, state.variables[variable]});
+    }
+    for (const BehaviorId behavior : model_.own()) {
+      outcome.situation.behaviors.push_back({behavior, !oracle::contains(state.denied, behavior)});
+    }
+    for (const BehaviorId behavior : model_.behaviors()) {
+      if (oracle::contains(state.faulty, behavior)) outcome.faulty.push_back(behavior);
+    }
+    result_.outcomes->push_back(std::move(outcome));
+  }
+
   void observe(std::size_t place) {
     const Node& node = nodes_[place];
     const Snapshot& state = node.state;
+    if (state.queue.empty()) add_outcome(place);
     std::vector<std::uint32_t> running;
     for (const TaskId task : model_.tasks()) {
       const std::uint32_t index = catalog_.tasks[task].catalog_index;
@@ -242,12 +269,18 @@ class PlainSearch {
     }
   }
 
+  [[nodiscard]] std::vector<Move> script_to(std::size_t place) const {
+    std::vector<Move> script;
+    for (std::size_t at = place; at != 0; at = nodes_[at].parent) {
+      script.push_back(nodes_[at].move);
+    }
+    std::reverse(script.begin(), script.end());
+    return script;
+  }
+
   void write_script(std::size_t place, Verdict& verdict) const {
     verdict.has_script = true;
-    for (std::size_t at = place; at != 0; at = nodes_[at].parent) {
-      verdict.script.push_back(nodes_[at].move);
-    }
-    std::reverse(verdict.script.begin(), verdict.script.end());
+    verdict.script = script_to(place);
   }
 
   /// Of the states at the depth some are not expanded, but all are known.
@@ -261,6 +294,9 @@ class PlainSearch {
     result_.states = nodes_.size();
     result_.runs.assign(runs_.begin(), runs_.end());
     result_.active.assign(active_.begin(), active_.end());
+    std::sort(result_.outcomes->begin(), result_.outcomes->end(), [](const auto& a, const auto& b) {
+      return std::pair(a.script.size(), a.running) < std::pair(b.script.size(), b.running);
+    });
     result_.start_refused.assign(start_refused_.begin(), start_refused_.end());
     for (const auto& [pair, depth] : together_) {
       result_.together.push_back({pair.first, pair.second, depth});
@@ -292,6 +328,7 @@ class PlainSearch {
   std::map<std::uint32_t, std::uint32_t> active_;
   std::map<std::uint32_t, std::uint32_t> start_refused_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> together_;
+  std::set<std::vector<std::pair<std::uint32_t, std::uint32_t>>> outcomes_;  ///< what runs
   Exploration result_;
 };
 

@@ -71,6 +71,8 @@ class PlainModel {
   [[nodiscard]] const std::vector<BehaviorId>& behaviors() const { return behaviors_; }
   /// Those of the state, in catalog order.
   [[nodiscard]] const std::vector<std::uint32_t>& variables() const { return variables_; }
+  /// Those whose own(b) is part of the state, in catalog order.
+  [[nodiscard]] const std::vector<BehaviorId>& own() const { return own_; }
 
  private:
   [[nodiscard]] bool has_group(GroupId group) const;
@@ -90,7 +92,7 @@ class PlainModel {
   std::vector<TaskId> tasks_;
   std::vector<BehaviorId> behaviors_;
   std::vector<std::uint32_t> variables_;
-  std::vector<BehaviorId> own_;       ///< those whose own(b) is part of the state
+  std::vector<BehaviorId> own_;
   std::vector<SituationPart> never_;  ///< without those about what is not part of it
 };
 

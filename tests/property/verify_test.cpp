@@ -60,6 +60,23 @@ std::string list_of(const std::vector<Exploration::Together>& pairs) {
   return text;
 }
 
+/// What runs, when, how and where.
+std::string list_of(const VerifyCase& sample, const std::vector<ReachableOutcome>& outcomes) {
+  std::string text;
+  for (const ReachableOutcome& outcome : outcomes) {
+    text += list_of(outcome.running) + " with";
+    for (const auto& [variable, value] : outcome.situation.variables) {
+      text += " " + std::to_string(variable) + "=" + std::to_string(value);
+    }
+    for (const auto& [behavior, available] : outcome.situation.behaviors) {
+      text += " " + std::to_string(behavior) + (available ? "+" : "-");
+    }
+    text +=
+        " without" + list_of(outcome.faulty) + " by\n" + text_of(sample.catalog, outcome.script);
+  }
+  return text;
+}
+
 /// Everything that two explorations have to agree on.
 std::vector<std::pair<std::string, std::string>> parts_of(const VerifyCase& sample,
                                                           const Exploration& result) {
@@ -77,6 +94,7 @@ std::vector<std::pair<std::string, std::string>> parts_of(const VerifyCase& samp
                              {"active", list_of(result.active)},
                              {"start refused", list_of(result.start_refused)},
                              {"together", list_of(result.together)},
+                             {"outcomes", list_of(sample, result.outcomes.value())},
                              {"verdicts", std::to_string(result.verdicts.size())}});
   for (std::size_t i = 0; i < result.verdicts.size(); ++i) {
     parts.emplace_back(sample.question.properties[i].name,
@@ -109,7 +127,8 @@ const Property& undecided_to_the_end() {
 }
 
 /// Visits all states, whatever the properties are, but where they have a mark.
-Exploration explore_all(const VerifyCase& sample, const ExplorationOptions& options) {
+Exploration explore_all(const VerifyCase& sample, ExplorationOptions options) {
+  options.outcomes = true;
   std::vector<const Property*> properties = sample.properties();
   properties.push_back(&undecided_to_the_end());
   Exploration result = explore(sample.catalog, sample.question.groups, sample.question.assumptions,
@@ -163,6 +182,8 @@ Exploration beginning_of(const VerifyCase& sample, Exploration result, std::uint
   result.start_refused = up_to(depth, result.start_refused, second);
   result.together =
       up_to(depth, result.together, [](const Exploration::Together& entry) { return entry.depth; });
+  result.outcomes = up_to(depth, *result.outcomes,
+                          [](const ReachableOutcome& outcome) { return outcome.script.size(); });
   for (std::size_t i = 0; i < result.verdicts.size(); ++i) {
     Verdict& verdict = result.verdicts[i];
     const Property::Kind kind = sample.question.properties[i].kind;
@@ -180,8 +201,10 @@ Exploration beginning_of(const VerifyCase& sample, Exploration result, std::uint
 
 /// Compares with the search that ends once all is decided. Returns whether it did.
 bool compare_decided(const VerifyCase& sample, const Exploration& expected) {
+  ExplorationOptions options;
+  options.outcomes = true;
   const Exploration result = explore(sample.catalog, sample.question.groups,
-                                     sample.question.assumptions, sample.properties(), {});
+                                     sample.question.assumptions, sample.properties(), options);
   if (result.complete) {
     demand_same(sample, result, expected, "nothing was decided early");
     return false;
@@ -226,6 +249,25 @@ std::uint32_t compare_beginnings(const VerifyCase& sample, const Exploration& ex
   demand_same(sample, beginning_of(sample, result, depth), beginning_of(sample, expected, depth),
               "up to depth " + std::to_string(depth));
   return depth;
+}
+
+/// What the states of outcomes are like.
+void count_outcomes(const Exploration& expected, oracle::Statistics& statistics) {
+  for (const ReachableOutcome& outcome : *expected.outcomes) {
+    const auto count = [&](const char* what, bool happened) {
+      if (happened) statistics.count(what);
+    };
+    const auto has = [&](Move::Kind kind) {
+      return std::any_of(outcome.script.begin(), outcome.script.end(),
+                         [kind](const Move& move) { return move.kind == kind; });
+    };
+    statistics.count("outcome");
+    count("outcome after three moves", outcome.script.size() >= 3);
+    count("outcome with a fault", !outcome.faulty.empty());
+    count("outcome by a situation", has(Move::Kind::variable) || has(Move::Kind::own));
+    count("outcome by the queue", has(Move::Kind::due));
+    count("outcome of several tasks", outcome.running.size() > 1);
+  }
 }
 
 void count_verdict(const Property& property, const Verdict& verdict,
@@ -322,6 +364,7 @@ void run_case(std::uint64_t seed, oracle::Results& results) {
         count_verdict(sample.question.properties[i], expected.verdicts[i], results.statistics);
       }
       results.statistics.count(expected.error ? "excluded first state" : "compared");
+      if (!expected.error) count_outcomes(expected, results.statistics);
       if (!expected.error) count_forms(sample, expected, results.statistics);
     } else {
       compare_beginnings(sample, expected);
@@ -339,6 +382,12 @@ const oracle::LowerBound lower_bounds[] = {
     {"excluded first state", 10},
     {"merged", 20},
     {"decided early", 20},
+    {"outcome", 5000},
+    {"outcome after three moves", 2500},
+    {"outcome with a fault", 300},
+    {"outcome by a situation", 500},
+    {"outcome by the queue", 2500},
+    {"outcome of several tasks", 3000},
     {"keeps_running proved", 20},
     {"keeps_running violated", 20},
     {"always_possible proved", 20},

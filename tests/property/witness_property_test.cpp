@@ -117,6 +117,28 @@ void count_sort_of_script(const CompiledCatalog& catalog, const std::vector<Move
   count("reactive tasks of other groups", has_reactive_task_elsewhere(catalog, groups));
 }
 
+/// Checks the scripts of all outcomes of all groups.
+void check_outcomes(const VerifyCase& sample, std::string& text, oracle::Statistics& statistics) {
+  PropertyFile file;
+  file.assumptions = sample.question.assumptions;
+  ExplorationOptions options;
+  options.limits.max_states = most_states;
+  options.outcomes = true;
+  for (const Exploration& of_group :
+       verify_properties(sample.catalog, file, options).explorations) {
+    const PlainModel model(sample.catalog, of_group.groups, file.assumptions);
+    for (const ReachableOutcome& outcome : *of_group.outcomes) {
+      const Property property = property_of(sample.catalog, of_group.groups.front(), outcome);
+      const Witness witness = make_witness(sample.catalog, of_group.groups, file.assumptions,
+                                           outcome.script, &property, "An outcome.");
+      text = witness.text;
+      const PlainRun run = check_script(model, outcome.script, text);
+      demand(ends_as_stated(model, property, run), "an outcome that is none");
+      statistics.count("outcome");
+    }
+  }
+}
+
 void run_property_case(std::uint64_t seed, oracle::Results& results) {
   VerifyCase sample;
   std::string text;
@@ -146,6 +168,7 @@ void run_property_case(std::uint64_t seed, oracle::Results& results) {
         results.statistics.count("does not keep running");
       }
     }
+    check_outcomes(sample, text, results.statistics);
   } catch (const std::exception& error) {
     results.faults.push_back({seed, "seed " + std::to_string(seed) + "\n--- catalog\n" +
                                         text_of(sample) + "--- script\n" + text + "--- fault\n" +
@@ -154,9 +177,15 @@ void run_property_case(std::uint64_t seed, oracle::Results& results) {
 }
 
 const oracle::LowerBound property_bounds[] = {
-    {"script", 1000},  {"more than three moves", 60}, {"a due", 100},
-    {"two dues", 5},   {"several groups", 40},        {"reactive tasks of other groups", 40},
-    {"timeouts", 100}, {"does not keep running", 20},
+    {"script", 1000},
+    {"more than three moves", 60},
+    {"a due", 100},
+    {"two dues", 5},
+    {"several groups", 40},
+    {"reactive tasks of other groups", 40},
+    {"timeouts", 100},
+    {"does not keep running", 20},
+    {"outcome", 5000},
 };
 
 TEST(Witness, OfAPropertyIsAScriptThatSolveRepeats) {

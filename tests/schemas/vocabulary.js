@@ -101,7 +101,8 @@ function isOptional(object, name) {
   if (name === 'behavior') return ['minimum_decided', 'minimum_removed', 'performance'].includes(object.kind);
   if (['effects', 'overrides'].includes(name)) return 'groups' in object; // of a report; not of a task
   if (name === 'script') return 'change' in object; // of a mutant; not of a property
-  if (['file', 'groups', 'reduced', 'decided', 'states_at_depth'].includes(name)) return 'group' in object; // of an exploration
+  const ofExplorations = ['file', 'groups', 'reduced', 'decided', 'states_at_depth', 'outcomes'];
+  if (ofExplorations.includes(name)) return 'group' in object;
   if (name === 'error') return 'events' in object; // of a run; not of a line
   if (name === 'notes') return 'conflict' in object; // of a failed expectation; not of a report of lint
   const others = [

@@ -180,6 +180,7 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& 
                     const ExplorationOptions& options) {
   Exploration result;
   result.groups = groups;
+  if (options.outcomes) result.outcomes.emplace();
   const auto end_before_moves = [&](ExplorationEnd end) {
     result.end = end;
     result.states = 1;
@@ -245,6 +246,7 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& 
     result.verdicts.push_back(
         find_verdict(*properties[property], model, space, tests_of(property)));
   }
+  if (options.outcomes) result.outcomes = find_outcomes(model, space);
 
   for (const auto& part : space.parts()) {
     const Decisions& decisions = part->controls().stepper().decisions();

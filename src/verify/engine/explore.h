@@ -11,6 +11,7 @@
 #include "runtime/compiled/compiled_catalog.h"
 #include "verify/engine/breadth_first.h"
 #include "verify/engine/model.h"
+#include "verify/engine/outcomes.h"
 #include "verify/engine/property_test.h"
 
 namespace cbc {
@@ -25,6 +26,7 @@ struct ExplorationOptions {
   /// this sense: verdicts, scripts and least numbers of moves stay as they are, and only the counts
   /// of states and transitions, and the depth, are those of what is left.
   bool reduce = false;
+  bool outcomes = false;  ///< also finds Exploration::outcomes
   /// Called now and then, by one thread at a time; false ends the exploration as a limit does. May
   /// be empty.
   std::function<bool(const std::vector<GroupId>& groups, const ExplorationProgress&)> on_progress;
@@ -54,6 +56,8 @@ struct Exploration {
     std::uint32_t depth = 0;
   };
   std::vector<Together> together;  ///< pairs of tasks, a before b
+
+  std::optional<std::vector<ReachableOutcome>> outcomes;  ///< see ExplorationOptions::outcomes
 
   std::vector<Verdict> verdicts;  ///< in the order of the properties
   /// See Model::find_obstacle(); then nothing was explored.

@@ -45,6 +45,10 @@ class StatePart {
   void keep(const StateTest& test) {
     test.for_each_kept([this](Set set) { kept_.push_back(set); });
   }
+  /// Forgets, if there are many sets, those that are neither kept nor of a layer.
+  void collect_if_crowded() {
+    if (environments_.sets().is_crowded()) collect();
+  }
 
   // Visiting states.
 
@@ -144,7 +148,7 @@ bool StatePart::make_moves(std::uint32_t depth, Visitor& visitor, MayGoOn&& may_
     const States states = layers_[depth][place];
     controls_.load(states.control);
     if (!make_moves_of(states, visitor, may_go_on)) return false;
-    if (environments_.sets().is_crowded()) collect();
+    collect_if_crowded();
   }
   return true;
 }

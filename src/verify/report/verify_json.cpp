@@ -9,6 +9,7 @@
 #include "core/report/explanation_json.h"
 #include "core/support/json_description.h"
 #include "verify/report/effects_json.h"
+#include "verify/report/outcomes_json.h"
 #include "verify/report/overrides_json.h"
 #include "verify/report/verify_report.h"
 
@@ -43,7 +44,8 @@ constexpr Name<BehaviorPlaces> behavior_at;
 struct Explored {
   const VerifyResult& result;
   const VerifyPart& part;
-  const Exploration& exploration;
+  std::size_t place = 0;  ///< in Verification::explorations
+  const Exploration& exploration = part.verification.explorations[place];
 };
 
 constexpr auto exploration_of = [](const Explored& of) -> const auto& { return of.exploration; };
@@ -116,7 +118,14 @@ constexpr auto exploration = object(
                             item(count, &Exploration::Together::depth))),
                    "The pairs of tasks that run in one state, with the least number of moves to "
                    "one, in catalog order.",
-                   &Exploration::together))));
+                   &Exploration::together))),
+    optional("outcomes", list(reachable_outcome).on_lines(),
+             "Only with --outcomes: the distinct sets of running tasks and their behaviors in "
+             "states with nothing in the queue, those with shorter scripts first, then in catalog "
+             "order; of an incomplete exploration, up to `depth`.",
+             [](const Explored& of) {
+               return of.part.outcomes.empty() ? nullptr : &of.part.outcomes[of.place];
+             }));
 
 /// The script that shows an answer: `length_of` and `text_of` have a pointer to a value, or null.
 constexpr auto script = [](std::string_view meaning, auto length_of, auto text_of) {
@@ -413,9 +422,10 @@ constexpr auto report = object(
            [](const VerifyResult& of) {
              return [&of](const auto& put) {
                for (const VerifyPart& in_part : of.parts) {
-                 for (const Exploration& one : in_part.verification.explorations) {
+                 const auto& explorations = in_part.verification.explorations;
+                 for (std::size_t place = 0; place < explorations.size(); ++place) {
                    // A property may be about variables alone that no behavior names.
-                   if (!one.groups.empty()) put(Explored{of, in_part, one});
+                   if (!explorations[place].groups.empty()) put(Explored{of, in_part, place});
                  }
                }
              };

@@ -45,10 +45,23 @@ struct Replay {
 [[nodiscard]] Replay replay_difference(const CompiledCatalog& catalog, const Script& script,
                                        const Style& style, Microseconds last_move);
 
+/// Runs the script of an outcome. `moves`: takes what it does, in words.
+[[nodiscard]] RunResult replay_outcome(const CompiledCatalog& catalog, const Witness& witness,
+                                       std::vector<std::string>& moves);
+
 /// What was found out about a property, and its script.
 struct ReportedAnswer {
   const Answer* answer = nullptr;
   std::optional<Replay> replay;            ///< if there is a script
+  std::optional<std::string> script_path;  ///< of the file that has it
+};
+
+/// An outcome, and its script.
+struct ReportedOutcome {
+  const ReachableOutcome* outcome = nullptr;
+  std::size_t number = 1;  ///< in the order of the report
+  Witness witness;
+  std::vector<std::string> moves;          ///< of the script, in words
   std::optional<std::string> script_path;  ///< of the file that has it
 };
 
@@ -57,6 +70,8 @@ struct VerifyPart {
   std::unique_ptr<const PropertyFile> file;  ///< null: default assumptions, no properties
   Verification verification;
   std::vector<ReportedAnswer> answers;  ///< in the order of the file
+  /// By exploration; only if outcomes were asked for.
+  std::vector<std::vector<ReportedOutcome>> outcomes = {};
 
   /// Whether it is about the groups of the catalog, and not about properties.
   [[nodiscard]] bool is_about_groups() const { return file == nullptr || file->properties.empty(); }
@@ -159,6 +174,12 @@ struct VerifyResult {
 
 /// "LIGHT is night and GPS is unavailable"
 [[nodiscard]] std::string describe_part(const CompiledCatalog& catalog, const SituationPart& part);
+
+/// Adds the outcomes of an exploration: what runs, how the situation differs from the one that the
+/// assumptions state, and what leads there.
+void add_outcomes(const CompiledCatalog& catalog, const Assumptions& assumptions,
+                  const std::vector<ReportedOutcome>& outcomes, Text& text);
+void add_how_to_read_outcomes(Text& text);
 
 /// Adds the cut sets of a task; the behaviors without which a task cannot run.
 void add_cut_sets(const VerifyResult& result, const TaskCutSets& of_task, Text& text);

@@ -152,7 +152,11 @@ class GroupText {
  public:
   GroupText(const VerifyResult& result, const VerifyPart& part, const Assumptions& assumptions,
             Text& text)
-      : result_(result), catalog_(*result.catalog), part_(part), text_(text) {
+      : result_(result),
+        catalog_(*result.catalog),
+        part_(part),
+        assumptions_(assumptions),
+        text_(text) {
     for (const Assumptions::Start& start : assumptions.start) {
       requested_.insert(catalog_.tasks[start.task].catalog_index);
     }
@@ -164,20 +168,34 @@ class GroupText {
           "\nno task starts on request, so only reactive starts were explored; a property file\n"
           "can assume others (assume: {start: {TASK: 1}})\n");
     }
-    for (const Exploration& exploration : part_.verification.explorations) add_group(exploration);
+    const auto& explorations = part_.verification.explorations;
+    for (std::size_t place = 0; place < explorations.size(); ++place) {
+      add_group(explorations[place]);
+      if (part_.outcomes.empty()) {
+        add_facts(explorations[place]);
+      } else {
+        add_outcomes(catalog_, assumptions_, part_.outcomes[place], text_);
+      }
+    }
+    if (!part_.outcomes.empty()) add_how_to_read_outcomes(text_);
     if (!result_.single_faults.empty()) add_single_faults(result_, text_);
   }
 
  private:
-  void add_group(const Exploration& exploration) {
+  /// By their places in the catalog.
+  [[nodiscard]] std::vector<std::uint32_t> tasks_of(const Exploration& exploration) const {
     const GroupId group = exploration.groups.front();
-    std::vector<std::uint32_t> tasks;  // by their places in the catalog
+    std::vector<std::uint32_t> tasks;
     for (TaskId id = catalog_.group_tasks[group]; id < catalog_.group_tasks[group + 1]; ++id) {
       tasks.push_back(catalog_.tasks[id].catalog_index);
     }
     std::sort(tasks.begin(), tasks.end());
-    text_.title(fmt::format("group {}", group));
-    add_row("tasks", names_of(tasks));
+    return tasks;
+  }
+
+  void add_group(const Exploration& exploration) {
+    text_.title(fmt::format("group {}", exploration.groups.front()));
+    add_row("tasks", names_of(tasks_of(exploration)));
     add_row(
         "explored",
         {quantity(exploration.states, "state"), quantity(exploration.transitions, "transition"),
@@ -187,6 +205,10 @@ class GroupText {
       text_.add(
           table.line({"incomplete", describe_limit(result_, exploration)}, text_.style().warning));
     }
+  }
+
+  void add_facts(const Exploration& exploration) {
+    const std::vector<std::uint32_t> tasks = tasks_of(exploration);
     const std::string never = exploration.complete ? "never" : "not seen to";
     add_never(exploration, tasks, never);
     add_starts(exploration, tasks);
@@ -315,6 +337,7 @@ class GroupText {
   const VerifyResult& result_;
   const CompiledCatalog& catalog_;
   const VerifyPart& part_;
+  const Assumptions& assumptions_;
   std::set<std::uint32_t> requested_;  ///< tasks, by their places in the catalog
   Text& text_;
 };
