@@ -5,50 +5,35 @@
 #include <vector>
 
 #include "verify/engine/breadth_first.h"
-#include "verify/engine/environments.h"
-#include "verify/engine/model.h"
-#include "verify/engine/stepper.h"
+#include "verify/engine/control_system.h"
 
 namespace cbc {
 
-/// The controls of a model: all of a state but its environment. And what moves make of them, in
-/// which environments, as far as that was asked. Not for use by several threads.
+/// The controls of a system, numbered. And what moves make of them, in which environments, as far
+/// as that was asked. The system must outlive it. Not for use by several threads.
 class Controls {
  public:
   using Number = std::uint32_t;
-  using Set = Environments::Set;
+  using Set = ControlSystem::Set;
 
-  /// What can be tried with a control: the moves but for faults, as Environments::effects() has
-  /// them, and starts that are no moves.
-  struct Action {
-    Model::Choice choice;
-    Environments::Effect effect;
-    bool is_move = true;
-  };
+  /// See ControlSystem::Outcome.
   struct Outcome {
-    Number control = 0;
-    bool accepted = false;  ///< of a start
+    Number control = none;
+    bool accepted = false;
+    std::uint32_t note = 0;
   };
 
-  Controls(const Model& model, Environments& environments, const Stepper::Options& options);
+  explicit Controls(ControlSystem& system);
 
   [[nodiscard]] Number size() const { return store_.size(); }
-  [[nodiscard]] const std::vector<Action>& actions() const { return actions_; }
-  /// The action that starts a task with a priority, of which `ranks` is Model::ranks_up_to(), or
-  /// tries to. Before any control is loaded.
-  [[nodiscard]] std::uint32_t find_start(std::uint32_t task, Model::Rank ranks);
-
-  /// The number of the control of a state.
-  [[nodiscard]] Number find(const std::uint16_t* cells) { return find_packed(pack(cells)); }
-  [[nodiscard]] Number find_packed(const std::uint32_t* packed) {
+  /// The number of a control.
+  [[nodiscard]] Number find(const std::uint32_t* packed) {
     return store_.insert(packed, store_.hash(packed), 0);
   }
   /// The same, but nothing if the control is new.
   [[nodiscard]] std::optional<Number> known(const std::uint32_t* packed) const {
     return store_.find(packed, store_.hash(packed));
   }
-  /// The control of a state; valid until the next call.
-  [[nodiscard]] const std::uint32_t* pack(const std::uint16_t* cells);
   [[nodiscard]] const std::uint32_t* packed(Number control) const { return store_.state(control); }
   /// The same for one control in all objects of this class.
   [[nodiscard]] std::uint64_t hash(const std::uint32_t* packed) const {
@@ -56,11 +41,6 @@ class Controls {
   }
   /// Takes up a control.
   void load(Number control);
-  /// Of its state, what it says of the control counts.
-  [[nodiscard]] const Stepper& stepper() const { return stepper_; }
-  [[nodiscard]] bool may_have(std::uint32_t action) const {
-    return stepper_.may_have_move(actions_[action].choice);
-  }
 
   /// What an action makes of the loaded control in the environments of a set, in which it exists:
   /// calls `take` with each outcome and the part of the set where it is the one.
@@ -68,25 +48,31 @@ class Controls {
   void for_each_outcome(std::uint32_t action, Set set, Take&& take) {
     walk(root_of(action), action, set, take);
   }
-  /// Whether a task runs with a control.
-  [[nodiscard]] bool runs_in(Number control, std::uint32_t task) const {
-    return model_.cell_of(store_.state(control), task) != 0;
+  /// What it makes of it in one environment.
+  [[nodiscard]] Outcome outcome_in(std::uint32_t action,
+                                   const std::vector<std::uint8_t>& environment);
+  [[nodiscard]] Outcome after_fault() { return numbered(system_.take_fault()); }
+  [[nodiscard]] Outcome after_repair(std::uint32_t kind) {
+    return numbered(system_.take_repair(kind));
   }
-  /// The controls that moves make of one, in some environment that was asked about.
+  /// The controls that actions make of one, in some environment that was asked about.
   [[nodiscard]] std::vector<Number> successors_of(Number control) const;
-  /// The loaded control after a repair of a behavior of the group.
-  [[nodiscard]] Number after_repair(std::uint32_t group);
 
-  /// How often an outcome was found; those that lead to the same control are several.
+  /// How often an outcome of an action was found; those that lead to the same control are several.
   [[nodiscard]] std::uint64_t regions() const { return regions_; }
   [[nodiscard]] std::uint64_t bytes() const;
-  [[nodiscard]] const Stepper::Options& options() const { return options_; }
+
+  /// What must survive Diagrams::collect().
+  template <typename Keep>
+  void for_each_kept(Keep&& keep) const {
+    for (const Question& question : questions_) keep(question.asked);
+  }
 
  private:
   /// A question, or an outcome; 0: it is not known yet.
   using Tree = std::uint32_t;
   struct Question {
-    EnvironmentQuery query;
+    Set asked = Diagrams::empty;
     Tree answers[2] = {0, 0};  ///< no, yes
   };
   /// Of a tree: that of an action, or the answer to a question.
@@ -97,27 +83,40 @@ class Controls {
   };
   class Asked;
 
+  // An outcome: a control, or a place in `noted_`.
   static constexpr Tree is_outcome = Tree{1} << 31U;
-  static constexpr Tree is_accepted = Tree{1} << 30U;
+  static constexpr Tree is_noted = Tree{1} << 30U;
+  static constexpr Tree is_accepted = Tree{1} << 29U;
+  static constexpr Tree no_control = is_accepted - 1;
 
   [[nodiscard]] Place root_of(std::uint32_t action) const {
-    return {static_cast<std::size_t>(loaded_) * actions_.size() + action, 0, true};
+    return {static_cast<std::size_t>(loaded_) * system_.actions().size() + action, 0, true};
   }
   [[nodiscard]] Tree& at(const Place& place) {
     return place.is_root ? roots_[place.number] : questions_[place.number].answers[place.answer];
   }
-  void explore(std::uint32_t action, Set set);
+  [[nodiscard]] Tree tree_of(const Outcome& outcome);
+  [[nodiscard]] Outcome outcome_of(Tree tree) const {
+    const Tree number = tree & no_control;
+    if ((tree & is_noted) != 0) return noted_[number];
+    return {number == no_control ? none : number, (tree & is_accepted) != 0, 0};
+  }
+  [[nodiscard]] Outcome numbered(const ControlSystem::Outcome& outcome);
+  void explore(std::uint32_t action, const std::vector<std::uint8_t>& environment);
 
   template <typename Take>
   void walk(const Place& place, std::uint32_t action, Set set, Take& take) {
-    if (at(place) == 0) explore(action, set);
+    Diagrams& sets = system_.sets();
+    if (at(place) == 0) {
+      sets.pick(set, string_);
+      explore(action, string_);
+    }
     const Tree tree = at(place);
     if ((tree & is_outcome) != 0) {
-      take(Outcome{tree & (is_accepted - 1), (tree & is_accepted) != 0}, set);
+      take(outcome_of(tree), set);
       return;
     }
-    Diagrams& sets = environments_.sets();
-    const Set asked = environments_.query(actions_[action].effect, questions_[tree].query);
+    const Set asked = questions_[tree].asked;
     const Set yes = sets.both(set, asked);
     if (yes != Diagrams::empty) walk({tree, 1, false}, action, yes, take);
     if (yes == set) return;
@@ -125,18 +124,13 @@ class Controls {
     walk({tree, 0, false}, action, no, take);
   }
 
-  const Model& model_;
-  Environments& environments_;
-  const Stepper::Options options_;
-  std::vector<Action> actions_;
-  Stepper stepper_;
+  ControlSystem& system_;
   StateStore store_;
-  Number loaded_ = UINT32_MAX;
+  Number loaded_ = none;
   std::vector<Tree> roots_;  ///< by control and action
   std::vector<Question> questions_;
+  std::vector<Outcome> noted_;
   std::uint64_t regions_ = 0;
-  std::vector<std::uint16_t> cells_;
-  std::vector<std::uint32_t> packed_;
   std::vector<std::uint8_t> string_;
 };
 

@@ -279,6 +279,10 @@ Diagrams::Set Diagrams::before_change(Set a, ValuesNumber values) {
   return result;
 }
 
+void Diagrams::change(std::vector<std::uint8_t>& string, ValuesNumber values) const {
+  for (const auto& [bit, value] : values_[values].bits) string[bit] = value ? 1 : 0;
+}
+
 Diagrams::ValuesNumber Diagrams::keep_bits(std::vector<bool> bits) {
   bits.resize(bits_, false);
   tail_lists_.emplace_back(bits.begin() + first_of_tail_, bits.end());

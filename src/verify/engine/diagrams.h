@@ -53,6 +53,8 @@ class Diagrams {
   [[nodiscard]] Set changed(Set a, ValuesNumber values);
   /// The strings that are in the set once their bits get these values.
   [[nodiscard]] Set before_change(Set a, ValuesNumber values);
+  /// Gives the bits of one string these values.
+  void change(std::vector<std::uint8_t>& string, ValuesNumber values) const;
 
   /// Bits that one_set() and one_cleared() change, kept as long as this object.
   [[nodiscard]] ValuesNumber keep_bits(std::vector<bool> bits);

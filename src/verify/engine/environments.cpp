@@ -8,71 +8,107 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 #include <utility>
 
 namespace cbc {
 
 namespace {
 
-/// The bits of a variable; 0: it does not change.
-std::uint32_t width_of(const Model::Variable& variable) {
-  if (variable.cell == none) return 0;
-  return static_cast<std::uint32_t>(std::bit_width(variable.values - 1));
-}
-
-std::uint32_t bits_of(const Model& model) {
-  std::uint32_t bits = model.layout().own_count + model.layout().faulty_count;
-  for (const Model::Variable& variable : model.variables()) bits += width_of(variable);
-  return bits;
-}
-
-/// The faults, of which there are few at a time, are the last bits.
-std::uint32_t tail_of(const Model& model) {
-  return Diagrams::tail_for(model.layout().faulty_count, model.assumptions().faults);
-}
-
-}  // namespace
-
-Environments::Environments(const Model& model, bool has_mark)
-    : model_(model),
-      sets_(bits_of(model) + (has_mark ? 1 : 0), tail_of(model), model.assumptions().faults) {
-  for (const Model::Variable& variable : model_.variables()) {
-    first_bit_.push_back(variable.cell != none ? first_own_ : none);
-    first_own_ += width_of(variable);
-  }
-  mark_bit_ = first_own_ + model_.layout().own_count;
-  first_fault_ = mark_bit_ + (has_mark ? 1 : 0);
-  if (has_mark) {
-    marked_ = sets_.with(mark_bit_, true);
-    mark_set_ = sets_.keep({{{mark_bit_, true}}});
-    mark_cleared_ = sets_.keep({{{mark_bit_, false}}});
-  }
-  find_conditions();
-  find_never();
-  count_faults_in_all();
-  add_effects();
-}
-
-Diagrams::Values Environments::values_of(std::uint32_t variable, std::uint32_t value) const {
+/// The bits of a variable that has a code.
+Diagrams::Values values_of(const EnvironmentBits::Variable& variable, std::uint32_t code) {
   Diagrams::Values values;
-  const std::uint32_t width = width_of(model_.variables()[variable]);
-  for (std::uint32_t place = 0; place < width; ++place) {
-    const std::uint32_t shift = width - 1U - place;
-    values.bits.emplace_back(first_bit_[variable] + place, ((value >> shift) & 1U) != 0);
+  for (std::uint32_t place = 0; place < variable.width; ++place) {
+    const std::uint32_t shift = variable.width - 1U - place;
+    values.bits.emplace_back(variable.first + place, ((code >> shift) & 1U) != 0);
   }
   return values;
 }
 
-Environments::Set Environments::with_value(std::uint32_t variable, std::uint32_t value) {
-  if (first_bit_[variable] == none) {
-    return model_.variables()[variable].initial == value ? Diagrams::all : Diagrams::empty;
+}  // namespace
+
+EnvironmentBits bits_of(const Model& model, bool has_mark) {
+  EnvironmentBits bits;
+  for (const Model::Variable& variable : model.variables()) {
+    EnvironmentBits::Variable& added = bits.variables.emplace_back();
+    if (variable.cell == none) continue;
+    added.first = bits.count;
+    added.width = static_cast<std::uint32_t>(std::bit_width(variable.values - 1));
+    added.codes.resize(variable.values);
+    std::iota(added.codes.begin(), added.codes.end(), 0U);
+    added.code_at_first = variable.initial;
+    bits.count += added.width;
   }
-  return sets_.with(values_of(variable, value));
+  while (bits.own.size() < model.layout().own_count) bits.own.push_back(bits.count++);
+  if (has_mark) bits.mark = bits.count++;
+  while (bits.fault.size() < model.layout().faulty_count) bits.fault.push_back(bits.count++);
+  return bits;
+}
+
+Environments::Environments(const Model& model, EnvironmentBits bits, Diagrams& sets)
+    : model_(model), bits_(std::move(bits)), sets_(sets), tables_(1) {
+  find_conditions();
+  find_never();
+  for (const std::uint32_t bit : bits_.fault) {
+    faulty_.push_back(bit == none ? Diagrams::empty : sets_.with(bit, true));
+  }
+}
+
+void Environments::write_first(std::vector<std::uint8_t>& string) const {
+  const auto write = [&](const Diagrams::Values& values) {
+    for (const auto& [bit, value] : values.bits) string[bit] = value ? 1 : 0;
+  };
+  for (const EnvironmentBits::Variable& variable : bits_.variables) {
+    write(values_of(variable, variable.code_at_first));
+  }
+  const std::vector<std::uint16_t> cells = model_.first_state();
+  for (std::uint32_t own = 0; own < bits_.own.size(); ++own) {
+    if (bits_.own[own] != none) write({{{bits_.own[own], cells[model_.layout().own + own] != 0}}});
+  }
+}
+
+void Environments::write_cells(const std::vector<std::uint8_t>& string,
+                               std::uint16_t* cells) const {
+  const Model::Layout& layout = model_.layout();
+  for (std::uint32_t variable = 0; variable < bits_.variables.size(); ++variable) {
+    const EnvironmentBits::Variable& bits = bits_.variables[variable];
+    if (bits.first == none) continue;
+    std::uint32_t code = 0;
+    for (std::uint32_t place = 0; place < bits.width; ++place) {
+      code = code * 2 + string[bits.first + place];
+    }
+    const auto value = std::find(bits.codes.begin(), bits.codes.end(), code);
+    cells[model_.variables()[variable].cell] =
+        static_cast<std::uint16_t>(value - bits.codes.begin());
+  }
+  const auto write = [&](std::uint32_t first, const std::vector<std::uint32_t>& places) {
+    for (std::uint32_t place = 0; place < places.size(); ++place) {
+      if (places[place] != none) cells[first + place] = string[places[place]];
+    }
+  };
+  write(layout.own, bits_.own);
+  write(layout.faulty, bits_.fault);
+}
+
+// Conditions.
+
+Environments::Set Environments::with_code(std::uint32_t variable, std::uint32_t code) {
+  return sets_.with(values_of(bits_.variables[variable], code));
+}
+
+Environments::Set Environments::with_value(std::uint32_t variable, std::uint32_t value) {
+  const EnvironmentBits::Variable& bits = bits_.variables[variable];
+  const bool is_initial = model_.variables()[variable].initial == value;
+  if (bits.first == none) return is_initial ? Diagrams::all : Diagrams::empty;
+  const std::uint32_t code = bits.codes[value];
+  const Set usual = code == none ? Diagrams::empty : with_code(variable, code);
+  if (!is_initial || code == bits.code_at_first) return usual;
+  return sets_.either(usual, with_code(variable, bits.code_at_first));
 }
 
 Environments::Set Environments::denied(std::uint32_t behavior) {
   const std::uint32_t own = model_.behaviors()[behavior].own;
-  if (own != none) return sets_.with(first_own_ + own, true);
+  if (own != none && bits_.own[own] != none) return sets_.with(bits_.own[own], true);
   return has_bit(model_.denied().data(), behavior) ? Diagrams::all : Diagrams::empty;
 }
 
@@ -99,111 +135,88 @@ void Environments::find_conditions() {
 
 void Environments::find_never() {
   const Model::Layout& layout = model_.layout();
+  const auto set_of = [&](std::uint32_t cell, std::uint16_t value) {
+    if (cell >= layout.own) {
+      const std::uint32_t own = cell - layout.own;
+      if (bits_.own[own] != none) return sets_.with(bits_.own[own], value != 0);
+      return model_.first_state()[cell] == value ? Diagrams::all : Diagrams::empty;
+    }
+    const auto& variables = model_.variables();
+    const auto variable = std::find_if(variables.begin(), variables.end(),
+                                       [&](const auto& one) { return one.cell == cell; });
+    return with_value(static_cast<std::uint32_t>(variable - variables.begin()), value);
+  };
   for (const Model::Excluded& excluded : model_.excluded()) {
     Set all_parts = Diagrams::all;
     for (const auto& [cell, value] : excluded) {
-      const auto variable =
-          std::find_if(model_.variables().begin(), model_.variables().end(),
-                       [cell = cell](const auto& one) { return one.cell == cell; });
-      const Set part =
-          variable != model_.variables().end()
-              ? with_value(static_cast<std::uint32_t>(variable - model_.variables().begin()), value)
-              : sets_.with(first_own_ + (cell - layout.own), value != 0);
-      all_parts = sets_.both(all_parts, part);
+      all_parts = sets_.both(all_parts, set_of(cell, value));
     }
     never_ = sets_.either(never_, all_parts);
   }
 }
 
-void Environments::count_faults_in_all() {
-  const std::uint32_t faults = model_.layout().faulty_count;
-  for (std::uint32_t fault = 0; fault < faults; ++fault) {
-    faulty_.push_back(sets_.with(first_fault_ + fault, true));
-  }
-  const std::uint32_t most = std::min(model_.assumptions().faults, faults);
-  exactly_.assign(most + 1, Diagrams::empty);
-  exactly_[0] = Diagrams::all;
-  for (std::uint32_t fault = faults; fault-- > 0;) {
-    const Set faulty = faulty_[fault];
-    for (std::uint32_t count = most + 1; count-- > 0;) {
-      const Set one_more = count > 0 ? sets_.both(exactly_[count - 1], faulty) : Diagrams::empty;
-      exactly_[count] = sets_.either(sets_.without(exactly_[count], faulty), one_more);
-    }
-  }
-  for (std::uint32_t count = 0; count < most; ++count) room_ = sets_.either(room_, exactly_[count]);
-  std::vector<bool> all_bits(sets_.bits(), false);
-  std::vector<std::vector<bool>> bits(model_.groups().size(), all_bits);
-  for (const Model::Behavior& behavior : model_.behaviors()) {
-    if (behavior.fault == none) continue;
-    all_bits[first_fault_ + behavior.fault] = true;
-    bits[behavior.group][first_fault_ + behavior.fault] = true;
-  }
-  for (std::vector<bool>& of_group : bits) {
-    faults_of_group_.push_back(sets_.keep_bits(std::move(of_group)));
-  }
-  all_faults_ = sets_.keep_bits(std::move(all_bits));
-}
+// Moves.
 
-void Environments::add_effects() {
-  tables_.emplace_back();
-  const auto& moves = model_.moves();
-  for (std::uint32_t choice = 0; choice < moves.size(); ++choice) {
-    const Model::Choice& move = moves[choice];
-    switch (move.move.kind) {
-      case Move::Kind::fault:
-      case Move::Kind::repair:
-        break;
-      case Move::Kind::variable:
-        add_effect(choice, sets_.complement(with_value(move.subject, move.choice)),
-                   values_of(move.subject, move.choice));
-        break;
-      case Move::Kind::own: {
-        const std::uint32_t bit = first_own_ + move.subject;
-        for (const bool is_denied : {false, true}) {
-          add_effect(choice, sets_.with(bit, !is_denied), {{{bit, is_denied}}});
-        }
-        break;
+std::vector<Environments::Effect> Environments::effects_of(const Model::Choice& choice) {
+  const std::uint32_t subject = choice.subject;
+  switch (choice.move.kind) {
+    case Move::Kind::variable: {
+      const EnvironmentBits::Variable& bits = bits_.variables[subject];
+      return {change(choice.move, sets_.complement(with_value(subject, choice.choice)),
+                     values_of(bits, bits.codes[choice.choice]))};
+    }
+    case Move::Kind::own: {
+      const std::uint32_t bit = bits_.own[subject];
+      std::vector<Effect> effects;
+      for (const bool is_denied : {false, true}) {
+        Move move = choice.move;
+        move.choice = is_denied ? 0 : 1;
+        effects.push_back(change(move, sets_.with(bit, !is_denied), {{{bit, is_denied}}}));
       }
-      case Move::Kind::together:
-        add_joint_effect(choice, model_.joint_changes()[move.subject]);
-        break;
-      default: {
-        Effect effect;
-        effect.choice = choice;
-        if (move.move.kind == Move::Kind::situation_change) effect.condition = denied(move.subject);
-        effects_.push_back(effect);
-        break;
-      }
+      return effects;
+    }
+    case Move::Kind::together:
+      return {joint_change(choice.move, model_.joint_changes()[subject])};
+    default: {
+      Effect effect;
+      effect.move = choice.move;
+      if (choice.move.kind == Move::Kind::situation_change) effect.condition = denied(subject);
+      return {effect};
     }
   }
 }
 
-void Environments::add_effect(std::uint32_t choice, Set condition, const Diagrams::Values& values) {
+Environments::Effect Environments::change(const Move& move, Set condition,
+                                          Diagrams::Values values) {
   Effect effect;
-  effect.choice = choice;
+  effect.move = move;
+  effect.condition = condition;
   effect.changes = true;
-  effect.values = sets_.keep(values);
-  effect.condition = sets_.without(condition, sets_.before_change(never_, effect.values));
-  if (effect.condition == Diagrams::empty) return;
+  effect.values = sets_.keep(std::move(values));
+  effect.excluded = sets_.before_change(never_, effect.values);
   effect.table = static_cast<std::uint32_t>(tables_.size());
   tables_.emplace_back();
-  effects_.push_back(effect);
+  return effect;
 }
 
 /// It exists where at least two of the variables have other values.
-void Environments::add_joint_effect(std::uint32_t choice, const Model::JointChange& change) {
+Environments::Effect Environments::joint_change(const Move& move,
+                                                const Model::JointChange& change_of) {
   Set none_differs = Diagrams::all;
   Set one_differs = Diagrams::empty;
   Diagrams::Values all_values;
-  for (const auto& [variable, value] : change.values) {
+  for (const auto& [variable, value] : change_of.values) {
     const Set has_value = with_value(variable, value);
     one_differs =
         sets_.either(sets_.both(one_differs, has_value), sets_.without(none_differs, has_value));
     none_differs = sets_.both(none_differs, has_value);
-    const Diagrams::Values values = values_of(variable, value);
+    const EnvironmentBits::Variable& bits = bits_.variables[variable];
+    const Diagrams::Values values = values_of(bits, bits.codes[value]);
     all_values.bits.insert(all_values.bits.end(), values.bits.begin(), values.bits.end());
   }
-  add_effect(choice, sets_.complement(sets_.either(none_differs, one_differs)), all_values);
+  std::sort(all_values.bits.begin(), all_values.bits.end());
+  return change(move, sets_.complement(sets_.either(none_differs, one_differs)),
+                std::move(all_values));
 }
 
 Environments::Set Environments::after_to_before(const Effect& effect, Set set) {
@@ -244,93 +257,6 @@ Environments::Set Environments::query(const Effect& effect, EnvironmentQuery que
 
 const Stepper::Possible& Environments::possible_after(const Effect& effect) {
   return table_of(effect).possible;
-}
-
-// The mark.
-
-Environments::Set Environments::with_mark(Set set, Set to_set, Set to_clear) {
-  const Set kept = sets_.without(sets_.without(set, to_set), to_clear);
-  const Set newly = sets_.changed(sets_.both(set, to_set), mark_set_);
-  const Set cleared = sets_.changed(sets_.both(set, to_clear), mark_cleared_);
-  return sets_.either(kept, sets_.either(newly, cleared));
-}
-
-Environments::Set Environments::before_mark(Set set, Set to_set, Set to_clear) {
-  const Set kept = sets_.without(sets_.without(set, to_set), to_clear);
-  const Set newly = sets_.both(sets_.before_change(set, mark_set_), to_set);
-  const Set cleared = sets_.both(sets_.before_change(set, mark_cleared_), to_clear);
-  return sets_.either(kept, sets_.either(newly, cleared));
-}
-
-// Environments of states.
-
-void Environments::read(const std::uint16_t* cells, std::vector<std::uint8_t>& string) const {
-  const Model::Layout& layout = model_.layout();
-  string.assign(sets_.bits(), 0);
-  for (std::uint32_t variable = 0; variable < first_bit_.size(); ++variable) {
-    if (first_bit_[variable] == none) continue;
-    for (const auto& [bit, value] :
-         values_of(variable, cells[model_.variables()[variable].cell]).bits) {
-      string[bit] = value ? 1 : 0;
-    }
-  }
-  for (std::uint32_t own = 0; own < layout.own_count; ++own) {
-    string[first_own_ + own] = cells[layout.own + own] != 0 ? 1 : 0;
-  }
-  for (std::uint32_t fault = 0; fault < layout.faulty_count; ++fault) {
-    string[first_fault_ + fault] = cells[layout.faulty + fault] != 0 ? 1 : 0;
-  }
-}
-
-Environments::Set Environments::environment_of(const std::uint16_t* cells) {
-  std::vector<std::uint8_t> string;
-  read(cells, string);
-  Diagrams::Values values;
-  for (std::uint32_t bit = 0; bit < string.size(); ++bit) {
-    values.bits.emplace_back(bit, string[bit] != 0);
-  }
-  return sets_.with(values);
-}
-
-// Moves.
-
-Environments::Set Environments::after(const Effect& effect, Set set) {
-  return effect.changes ? sets_.changed(set, effect.values) : set;
-}
-
-Environments::Set Environments::before(const Effect& effect, Set set) {
-  const Set reached = effect.changes ? sets_.before_change(set, effect.values) : set;
-  return sets_.both(reached, effect.condition);
-}
-
-Environments::Set Environments::after_fault(Set set) {
-  return sets_.one_changed(sets_.both(set, room_), all_faults_, true);
-}
-Environments::Set Environments::before_fault(Set set) {
-  return sets_.both(sets_.one_changed(set, all_faults_, false), room_);
-}
-Environments::Set Environments::after_repair(std::uint32_t group, Set set) {
-  return sets_.one_changed(set, faults_of_group_[group], false);
-}
-Environments::Set Environments::before_repair(std::uint32_t group, Set set) {
-  return sets_.one_changed(set, faults_of_group_[group], true);
-}
-
-std::uint64_t Environments::count_faults(Set set) {
-  std::uint64_t count = 0;
-  for (std::size_t faults = 0; faults + 1 < exactly_.size(); ++faults) {
-    count +=
-        sets_.count(sets_.both(set, exactly_[faults])) * (model_.layout().faulty_count - faults);
-  }
-  return count;
-}
-
-std::uint64_t Environments::count_repairs(Set set) {
-  std::uint64_t count = 0;
-  for (std::size_t faults = 1; faults < exactly_.size(); ++faults) {
-    count += sets_.count(sets_.both(set, exactly_[faults])) * faults;
-  }
-  return count;
 }
 
 }  // namespace cbc

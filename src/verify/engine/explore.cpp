@@ -15,51 +15,48 @@
 #include <utility>
 
 #include "core/support/system.h"
+#include "verify/engine/catalog_system.h"
 #include "verify/engine/state_space.h"
-#include "verify/engine/state_test.h"
-#include "verify/engine/stepper.h"
 
 namespace cbc {
 
 namespace {
 
-using Set = Environments::Set;
 using States = StatePart::States;
 using Tests = std::vector<std::unique_ptr<PropertyTest>>;  // by property
-constexpr std::uint32_t never_seen = PropertyTest::never_seen;
+constexpr std::uint32_t never_seen = FirstStates::never;
 
 /// Notes the least depth at which something was seen, and looks at properties.
 class PropertyVisitor {
  public:
-  PropertyVisitor(const Model& model, StatePart& part, const Tests& properties)
-      : model_(model),
-        part_(part),
+  PropertyVisitor(CatalogSystem& system, const Tests& properties)
+      : system_(system),
         properties_(properties),
-        runs_(model.tasks().size(), never_seen),
-        active_(model.behaviors().size(), never_seen),
-        start_refused_(model.tasks().size(), never_seen),
-        together_(model.tasks().size() * words_for(model.tasks().size()), 0) {
+        runs_(system.model().tasks().size(), never_seen),
+        active_(system.model().behaviors().size(), never_seen),
+        start_refused_(runs_.size(), never_seen),
+        together_(runs_.size() * words_for(runs_.size()), 0) {
     for (const auto& property : properties) {
       if (property->looks_at_moves()) of_moves_.push_back(property.get());
     }
+    const Model& model = system.model();
     for (std::uint32_t task = 0; task < model.tasks().size(); ++task) {
       if (!model.tasks()[task].start_on_request) continue;
-      const std::uint32_t trial = part.controls().find_start(task, model.ranks_up_to(1));
-      trials_.resize(part.controls().actions().size(), none);
+      const std::uint32_t trial = system.find_start(task, model.ranks_up_to(1));
+      trials_.resize(system.actions().size(), none);
       trials_[trial] = task;
     }
   }
 
   void visit(const States& states, std::uint32_t depth) {
     depth_ = depth;
-    if (states.control >= is_known_.size()) is_known_.resize(part_.controls().size(), 0);
+    if (states.control >= is_known_.size()) is_known_.resize(states.control * 2 + 1, 0);
     if (std::exchange(is_known_[states.control], std::uint8_t{1}) == 0) visit_control();
     for (const auto& property : properties_) property->visit(states, depth);
   }
 
   void on_refusal(std::uint32_t action, const States& states) {
-    const Controls& controls = part_.controls();
-    if (controls.stepper().cells()[controls.actions()[action].choice.subject] != 0) return;
+    if (system_.stepper().cells()[system_.choice_of(action).subject] != 0) return;
     if (action < trials_.size() && trials_[action] != none) note(start_refused_[trials_[action]]);
     for (const auto& property : properties_) property->on_refusal(action, states, depth_);
   }
@@ -69,6 +66,8 @@ class PropertyVisitor {
       property->on_outcome(action, states, outcome, depth_);
     }
   }
+
+  void on_note(std::uint32_t /*note*/, const States& /*states*/) const {}
 
   /// What the visitors of all parts saw.
   static void report(const std::vector<PropertyVisitor>& parts, Exploration& result);
@@ -84,7 +83,7 @@ class PropertyVisitor {
 
   /// What is the same in all environments.
   void visit_control() {
-    const Stepper& control = part_.controls().stepper();
+    const Stepper& control = system_.stepper();
     const auto& running = control.running();
     const std::size_t words = running.size();
     for_each_bit(running.data(), words, [&](std::uint32_t task) {
@@ -104,8 +103,7 @@ class PropertyVisitor {
                  [&](std::uint32_t behavior) { note(active_[behavior]); });
   }
 
-  const Model& model_;
-  StatePart& part_;
+  CatalogSystem& system_;
   const Tests& properties_;
   std::vector<PropertyTest*> of_moves_;  ///< those that look at moves
   std::vector<std::uint32_t> trials_;    ///< by action: the task whose start is tried, or none
@@ -119,7 +117,7 @@ class PropertyVisitor {
 };
 
 void PropertyVisitor::report(const std::vector<PropertyVisitor>& parts, Exploration& result) {
-  const Model& model = parts.front().model_;
+  const Model& model = parts.front().system_.model();
   const CompiledCatalog& catalog = model.catalog();
   const auto index_of = [&](std::uint32_t task) {
     return catalog.tasks[model.tasks()[task].id].catalog_index;
@@ -162,7 +160,8 @@ std::uint64_t bytes_of_pairs(const Model& model) {
   return pairs / 4 + pairs / 8;
 }
 
-/// Sets apart a quarter of the memory for remembered decisions.
+}  // namespace
+
 Stepper::Options share_memory(const ExplorationOptions& options, std::uint64_t& memory) {
   Stepper::Options result;
   result.reduce = options.reduce;
@@ -172,8 +171,6 @@ Stepper::Options share_memory(const ExplorationOptions& options, std::uint64_t& 
   if (memory > 0) memory -= std::min(memory / 2, 2 * result.decision_bytes);
   return result;
 }
-
-}  // namespace
 
 Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
                     const Assumptions& assumptions, const std::vector<const Property*>& properties,
@@ -206,55 +203,62 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& 
     if (of_pairs >= memory) return end_before_moves(ExplorationEnd::max_memory);
     memory -= of_pairs;
   }
-  const Stepper::Options of_stepper = share_memory(options, limits.max_memory);
-  std::optional<StatePart::Mark> mark;
+  Stepper::Options of_stepper = share_memory(options, limits.max_memory);
+  const std::size_t jobs = std::max(1U, options.jobs);
+  of_stepper.decision_bytes /= jobs;
+  std::optional<CatalogSystem::Mark> mark;
   if (!properties.empty() && properties.front()->after) {
     mark = {*properties.front()->after, properties.front()->until};
   }
-  StateSpace space(
-      model, of_stepper, limits, std::max(1U, options.jobs),
-      [&](const ExplorationProgress& progress) {
-        return !options.on_progress || options.on_progress(groups, progress);
-      },
-      mark);
-  std::vector<Tests> tests(space.parts().size());
+  StateSpace::Systems systems;
+  std::vector<CatalogSystem*> of_parts;
+  while (systems.size() < jobs) {
+    auto system = std::make_unique<CatalogSystem>(model, of_stepper, mark);
+    of_parts.push_back(system.get());
+    systems.push_back(std::move(system));
+  }
+  StateSpace space(std::move(systems), limits, [&](const ExplorationProgress& progress) {
+    return !options.on_progress || options.on_progress(groups, progress);
+  });
+  std::vector<Tests> tests(of_parts.size());
   std::vector<PropertyVisitor> visitors;
   visitors.reserve(tests.size());
   for (std::size_t place = 0; place < tests.size(); ++place) {
-    StatePart& part = *space.parts()[place];
     for (const Property* const property : properties) {
-      tests[place].push_back(make_property_test(*property, model, part));
+      tests[place].push_back(
+          make_property_test(*property, *of_parts[place], *space.parts()[place]));
     }
-    visitors.emplace_back(model, part, tests[place]);
+    visitors.emplace_back(*of_parts[place], tests[place]);
   }
   const auto tests_of = [&](std::size_t property) {
-    std::vector<PropertyTest*> of_parts;
-    for (const Tests& of_part : tests) of_parts.push_back(of_part[property].get());
-    return of_parts;
+    std::vector<PropertyTest*> of_property;
+    for (const Tests& of_part : tests) of_property.push_back(of_part[property].get());
+    return of_property;
   };
   space.run(visitors, [&] {
     for (std::size_t property = 0; property < properties.size(); ++property) {
-      const auto of_parts = tests_of(property);
-      const bool is_decided = std::any_of(of_parts.begin(), of_parts.end(), [](const auto* test) {
-        return test->first() != never_seen;
-      });
+      const auto of_property = tests_of(property);
+      const bool is_decided =
+          std::any_of(of_property.begin(), of_property.end(),
+                      [](const auto* test) { return test->met().depth() != never_seen; });
       if (!is_decided) return false;
     }
     return !properties.empty();
   });
   for (std::size_t property = 0; property < properties.size(); ++property) {
-    result.verdicts.push_back(
-        find_verdict(*properties[property], model, space, tests_of(property)));
+    result.verdicts.push_back(find_verdict(*properties[property], space, tests_of(property)));
   }
-  if (options.outcomes) result.outcomes = find_outcomes(model, space);
+  if (options.outcomes) result.outcomes = find_outcomes(of_parts, space);
 
-  for (const auto& part : space.parts()) {
-    const Decisions& decisions = part->controls().stepper().decisions();
+  for (const CatalogSystem* const system : of_parts) {
+    const Decisions& decisions = system->stepper().decisions();
     result.decisions_remembered += decisions.remembered();
     result.decisions_computed += decisions.computed();
+  }
+  for (const auto& part : space.parts()) {
     result.controls += part->controls_visited();
     result.regions += part->controls().regions();
-    result.diagram_nodes += part->environments().sets().nodes();
+    result.diagram_nodes += part->system().sets().nodes();
   }
   result.complete = space.is_complete();
   result.decided = space.is_decided();

@@ -13,6 +13,7 @@
 #include "verify/engine/model.h"
 #include "verify/engine/outcomes.h"
 #include "verify/engine/property_test.h"
+#include "verify/engine/stepper.h"
 
 namespace cbc {
 
@@ -31,6 +32,10 @@ struct ExplorationOptions {
   /// be empty.
   std::function<bool(const std::vector<GroupId>& groups, const ExplorationProgress&)> on_progress;
 };
+
+/// Sets apart a quarter of the memory (0: no limit) for remembered decisions.
+[[nodiscard]] Stepper::Options share_memory(const ExplorationOptions& options,
+                                            std::uint64_t& memory);
 
 /// The result of the exploration of some groups.
 struct Exploration {

@@ -12,6 +12,7 @@
 #include <set>
 #include <utility>
 
+#include "verify/engine/first_states.h"
 #include "verify/engine/stepper.h"
 
 namespace cbc {
@@ -20,11 +21,7 @@ namespace {
 
 using Running = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Where an outcome is first reached.
-struct FirstStates {
-  std::uint32_t depth = 0;
-  std::vector<StatePart::Layer> layers;  ///< by part
-};
+using Found = std::vector<FirstStates>;  // by part
 
 Running running_in(const Model& model, const Stepper& control) {
   const CompiledCatalog& catalog = model.catalog();
@@ -40,11 +37,14 @@ Running running_in(const Model& model, const Stepper& control) {
   return running;
 }
 
-std::map<Running, FirstStates> find_first_states(const Model& model, StateSpace& space) {
-  std::map<Running, FirstStates> found;
-  const std::size_t count = space.parts().size();
-  for (std::size_t place = 0; place < count; ++place) {
+std::map<Running, Found> find_first_states(const std::vector<CatalogSystem*>& systems,
+                                           StateSpace& space) {
+  std::map<Running, Found> found;
+  Found nothing;
+  for (const auto& part : space.parts()) nothing.emplace_back(*part);
+  for (std::size_t place = 0; place < systems.size(); ++place) {
     StatePart& part = *space.parts()[place];
+    const CatalogSystem& system = *systems[place];
     std::vector<bool> is_known(part.controls().size(), false);
     const std::size_t layers =
         std::min<std::size_t>(part.layers().size(), space.expanded_depth() + std::size_t{1});
@@ -53,14 +53,10 @@ std::map<Running, FirstStates> find_first_states(const Model& model, StateSpace&
         if (is_known[states.control]) continue;
         is_known[states.control] = true;
         part.controls().load(states.control);
-        const Stepper& control = part.controls().stepper();
-        if (!control.is_settled()) continue;
-        FirstStates& first = found[running_in(model, control)];
-        if (first.layers.empty() || depth < first.depth) {
-          first.depth = depth;
-          first.layers.assign(count, {});
-        }
-        if (depth == first.depth) first.layers[place].push_back(states);
+        if (!system.stepper().is_settled()) continue;
+        const auto entry =
+            found.try_emplace(running_in(system.model(), system.stepper()), nothing).first;
+        entry->second[place].add(states, depth);
       }
     }
   }
@@ -90,17 +86,21 @@ void describe_environment(const Model& model, const Stepper& state, ReachableOut
 
 }  // namespace
 
-std::vector<ReachableOutcome> find_outcomes(const Model& model, StateSpace& space) {
+std::vector<ReachableOutcome> find_outcomes(const std::vector<CatalogSystem*>& systems,
+                                            StateSpace& space) {
   std::vector<ReachableOutcome> outcomes;
-  Stepper stepper(model);
-  for (const auto& [running, first] : find_first_states(model, space)) {
+  CatalogSystem& system = *systems.front();
+  Stepper stepper(system.model());
+  for (const auto& [running, first] : find_first_states(systems, space)) {
     ReachableOutcome& outcome = outcomes.emplace_back();
     outcome.running = running;
-    StateSpace::Path path = space.path_to(first.layers, first.depth);
+    std::vector<const FirstStates*> noted;
+    for (const FirstStates& of_part : first) noted.push_back(&of_part);
+    StateSpace::Path path = space.path_to(noted);
     outcome.script = std::move(path.moves);
     for (const auto& part : space.parts()) part->collect_if_crowded();
-    stepper.load(path.end.data());
-    describe_environment(model, stepper, outcome);
+    stepper.load(system.join(path.end.control(), path.end.environment()).data());
+    describe_environment(system.model(), stepper, outcome);
   }
   std::stable_sort(outcomes.begin(), outcomes.end(),
                    [](const ReachableOutcome& a, const ReachableOutcome& b) {

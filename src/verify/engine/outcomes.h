@@ -6,6 +6,7 @@
 
 #include "core/property/properties.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "verify/engine/catalog_system.h"
 #include "verify/engine/model.h"
 #include "verify/engine/state_space.h"
 
@@ -26,7 +27,9 @@ struct ReachableOutcome {
 
 /// The outcomes among the states up to StateSpace::expanded_depth(): each once, those with shorter
 /// scripts first, then compared as lists of tasks and behaviors in catalog order. After the run.
-[[nodiscard]] std::vector<ReachableOutcome> find_outcomes(const Model& model, StateSpace& space);
+/// `systems`: those of the space.
+[[nodiscard]] std::vector<ReachableOutcome> find_outcomes(
+    const std::vector<CatalogSystem*>& systems, StateSpace& space);
 
 /// The property of which the script of an outcome of a group is a witness.
 [[nodiscard]] Property property_of(const CompiledCatalog& catalog, GroupId group,

@@ -16,15 +16,13 @@ namespace cbc {
 namespace {
 
 using Kind = Property::Kind;
-using Set = Environments::Set;
+using Set = StatePart::Set;
 
 }  // namespace
 
-PropertyTest::PropertyTest(const Property& property, const Model& model, StatePart& part)
-    : property_(property), model_(model), part_(part) {
-  if (!property.when) return;
-  when_.emplace(model, *property.when, part.environments());
-  part.keep(*when_);
+PropertyTest::PropertyTest(const Property& property, CatalogSystem& system, StatePart& part)
+    : property_(property), system_(system), model_(system.model()), part_(part), met_(part) {
+  if (property.when) when_.emplace(system.make_test(*property.when));
 }
 
 void PropertyTest::visit(const States& states, std::uint32_t /*depth*/) {
@@ -41,19 +39,8 @@ Set PropertyTest::counted(const States& states) {
   if (property_.settled && !control().is_settled()) return Diagrams::empty;
   Set set = states.environments;
   if (when_) set = sets().both(set, when_->holds_in(control(), sets()));
-  if (property_.after) set = sets().both(set, part_.environments().marked());
+  if (property_.after) set = sets().both(set, system_.marked());
   return set;
-}
-
-void PropertyTest::note(const States& states, std::uint32_t depth) {
-  if (states.environments == Diagrams::empty || first_ < depth) return;
-  first_ = depth;
-  if (met_.empty() || met_.back().control != states.control) {
-    met_.push_back({states.control, Diagrams::empty});
-  }
-  Set& known = met_.back().environments;
-  known = sets().either(known, states.environments);
-  part_.keep(met_.back());
 }
 
 void PropertyTest::note_stuck(const States& states, const std::vector<Set>& can_reach,
@@ -68,11 +55,8 @@ namespace {
 /// always, never and reachable.
 class ConditionTest final : public PropertyTest {
  public:
-  ConditionTest(const Property& property, const Model& model, StatePart& part)
-      : PropertyTest(property, model, part),
-        condition_(model, property.condition, part.environments()) {
-    part.keep(condition_);
-  }
+  ConditionTest(const Property& property, CatalogSystem& system, StatePart& part)
+      : PropertyTest(property, system, part), condition_(system.make_test(property.condition)) {}
 
   void visit(const States& states, std::uint32_t depth) override {
     PropertyTest::visit(states, depth);
@@ -88,10 +72,10 @@ class ConditionTest final : public PropertyTest {
 
 class StartTest final : public PropertyTest {
  public:
-  StartTest(const Property& property, const Model& model, StatePart& part)
-      : PropertyTest(property, model, part),
-        action_(part.controls().find_start(model.find_task(property.task),
-                                           model.ranks_up_to(property.priority))) {}
+  StartTest(const Property& property, CatalogSystem& system, StatePart& part)
+      : PropertyTest(property, system, part),
+        action_(system.find_start(model_.find_task(property.task),
+                                  model_.ranks_up_to(property.priority))) {}
 
   void on_refusal(std::uint32_t action, const States& states, std::uint32_t depth) override {
     if (action == action_) note({states.control, counted(states)}, depth);
@@ -101,12 +85,15 @@ class StartTest final : public PropertyTest {
   std::uint32_t action_ = 0;
 };
 
-/// Of keeps_running: whether a move of the loaded state may not end the task, by its number in the
-/// model, which runs there.
-bool may_not_end(const Property& property, std::uint32_t task, const Model& model,
-                 const Model::Choice& choice, const Stepper& state) {
+/// Of keeps_running: whether an action of the loaded control may not end the task, by its number in
+/// the model, which runs there.
+bool may_not_end(const Property& property, std::uint32_t task, const CatalogSystem& system,
+                 std::uint32_t action) {
+  const Model& model = system.model();
+  const Model::Choice& choice = system.choice_of(action);
+  const Stepper& control = system.stepper();
   // Rank 0 is that of reactive starts.
-  if (state.cells()[task] == 0 || state.request_of(task) <= 1) return false;
+  if (control.cells()[task] == 0 || control.request_of(task) <= 1) return false;
   if (property.by && !is_of_kinds(*property.by, choice, model)) return false;
   switch (choice.move.kind) {
     case Move::Kind::stop:
@@ -114,7 +101,7 @@ bool may_not_end(const Property& property, std::uint32_t task, const Model& mode
     case Move::Kind::success:
     case Move::Kind::failure:
     case Move::Kind::situation_change: {
-      const std::uint32_t value = model.tasks()[task].values.begin + state.cells()[task] - 1U;
+      const std::uint32_t value = model.tasks()[task].values.begin + control.cells()[task] - 1U;
       return model.behavior_of(value) != choice.subject;
     }
     default:
@@ -122,32 +109,31 @@ bool may_not_end(const Property& property, std::uint32_t task, const Model& mode
   }
 }
 
-/// Of keeps_running: the first move of a packed state that ends the task.
-Move find_ending(const Property& property, const Model& model,
-                 const std::vector<std::uint32_t>& state) {
-  const std::uint32_t task = model.find_task(property.task);
-  Stepper stepper(model);
-  stepper.load(state.data());
-  const auto& moves = model.moves();
-  const auto ends = [&](const Model::Choice& choice) {
-    return may_not_end(property, task, model, choice, stepper) && stepper.try_move(choice) &&
-           stepper.cells_after()[task] == 0;
+/// Of keeps_running: the first move that ends the task in the state where a walker is.
+Move find_ending(const Property& property, const CatalogSystem& system, StateWalker& walker) {
+  const std::uint32_t task = system.model().find_task(property.task);
+  walker.load();
+  const auto& moves = system.moves();
+  const auto ends = [&](const ControlSystem::StateMove& move) {
+    // Faults and repairs end nothing.
+    return move.action != none && may_not_end(property, task, system, move.action) &&
+           walker.try_move(static_cast<std::size_t>(&move - moves.data())) &&
+           !system.runs_in(walker.control_after(), task);
   };
-  return stepper.move_of(*std::find_if(moves.begin(), moves.end(), ends));
+  return std::find_if(moves.begin(), moves.end(), ends)->move;
 }
 
 /// keeps_running: looks for the states before the task stops.
 class KeepTest final : public PropertyTest {
  public:
-  KeepTest(const Property& property, const Model& model, StatePart& part)
-      : PropertyTest(property, model, part), task_(model.find_task(property.task)) {}
+  KeepTest(const Property& property, CatalogSystem& system, StatePart& part)
+      : PropertyTest(property, system, part), task_(model_.find_task(property.task)) {}
 
   [[nodiscard]] bool looks_at_moves() const override { return true; }
   void on_outcome(std::uint32_t action, const States& states, Controls::Outcome outcome,
                   std::uint32_t depth) override {
-    const Model::Choice& choice = part_.controls().actions()[action].choice;
-    if (!may_not_end(property_, task_, model_, choice, control())) return;
-    if (part_.controls().runs_in(outcome.control, task_)) return;
+    if (!may_not_end(property_, task_, system_, action)) return;
+    if (system_.runs_in(part_.controls().packed(outcome.control), task_)) return;
     note({states.control, counted(states)}, depth);
   }
 
@@ -158,11 +144,8 @@ class KeepTest final : public PropertyTest {
 /// always_possible: goes backward once all states are known.
 class PossibilityTest final : public PropertyTest {
  public:
-  PossibilityTest(const Property& property, const Model& model, StatePart& part)
-      : PropertyTest(property, model, part),
-        condition_(model, property.condition, part.environments()) {
-    part.keep(condition_);
-  }
+  PossibilityTest(const Property& property, CatalogSystem& system, StatePart& part)
+      : PropertyTest(property, system, part), condition_(system.make_test(property.condition)) {}
 
   [[nodiscard]] Layer goals() override {
     Layer goals;
@@ -181,24 +164,35 @@ class PossibilityTest final : public PropertyTest {
 
 }  // namespace
 
-std::unique_ptr<PropertyTest> make_property_test(const Property& property, const Model& model,
+std::unique_ptr<PropertyTest> make_property_test(const Property& property, CatalogSystem& system,
                                                  StatePart& part) {
   switch (property.kind) {
     case Kind::can_start:
-      return std::make_unique<StartTest>(property, model, part);
+      return std::make_unique<StartTest>(property, system, part);
     case Kind::keeps_running:
-      return std::make_unique<KeepTest>(property, model, part);
+      return std::make_unique<KeepTest>(property, system, part);
     case Kind::always_possible:
-      return std::make_unique<PossibilityTest>(property, model, part);
+      return std::make_unique<PossibilityTest>(property, system, part);
     case Kind::always:
     case Kind::never:
     case Kind::reachable:
       break;
   }
-  return std::make_unique<ConditionTest>(property, model, part);
+  return std::make_unique<ConditionTest>(property, system, part);
 }
 
 namespace {
+
+MoveSelection select_moves(const MoveKinds& kinds, const CatalogSystem& system) {
+  MoveSelection selection;
+  for (std::uint32_t action = 0; action < system.actions().size(); ++action) {
+    const bool is_selected = is_of_kinds(kinds, system.choice_of(action), system.model());
+    selection.actions.push_back(is_selected ? 1 : 0);
+  }
+  selection.has_fault = kinds.fault;
+  selection.has_repair = kinds.repair;
+  return selection;
+}
 
 /// Goes backward from the states that satisfy the condition. False if a limit ends it.
 bool find_stuck(const Property& property, StateSpace& space,
@@ -206,8 +200,9 @@ bool find_stuck(const Property& property, StateSpace& space,
   std::vector<StatePart::Layer> goals;
   goals.reserve(tests.size());
   for (PropertyTest* const test : tests) goals.push_back(test->goals());
-  const auto can_reach =
-      space.can_reach(goals, property.by ? &*property.by : nullptr, property.within);
+  std::optional<MoveSelection> selection;
+  if (property.by) selection = select_moves(*property.by, tests.front()->system());
+  const auto can_reach = space.can_reach(goals, selection ? &*selection : nullptr, property.within);
   if (!can_reach) return false;
   for (std::size_t place = 0; place < tests.size(); ++place) {
     StatePart& part = *space.parts()[place];
@@ -223,7 +218,7 @@ bool find_stuck(const Property& property, StateSpace& space,
 
 }  // namespace
 
-Verdict find_verdict(const Property& property, const Model& model, StateSpace& space,
+Verdict find_verdict(const Property& property, StateSpace& space,
                      const std::vector<PropertyTest*>& tests) {
   Verdict verdict;
   if (property.kind == Kind::always_possible) {
@@ -232,9 +227,10 @@ Verdict find_verdict(const Property& property, const Model& model, StateSpace& s
   const bool is_reachable = property.kind == Kind::reachable;
   const auto if_seen = is_reachable ? Verdict::Result::proved : Verdict::Result::violated;
   const auto if_not = is_reachable ? Verdict::Result::violated : Verdict::Result::proved;
-  std::uint32_t first = PropertyTest::never_seen;
-  for (const PropertyTest* const test : tests) first = std::min(first, test->first());
-  if (first == PropertyTest::never_seen) {
+  std::vector<const FirstStates*> met;
+  met.reserve(tests.size());
+  for (const PropertyTest* const test : tests) met.push_back(&test->met());
+  if (StateSpace::least_depth(met) == FirstStates::never) {
     if (!space.is_complete()) return verdict;
     verdict.result = if_not;
     const bool has_counted = std::any_of(tests.begin(), tests.end(),
@@ -244,16 +240,13 @@ Verdict find_verdict(const Property& property, const Model& model, StateSpace& s
   }
   verdict.result = if_seen;
   verdict.has_script = true;
-  std::vector<StatePart::Layer> targets;
-  for (const PropertyTest* const test : tests) {
-    targets.push_back(test->first() == first ? test->met() : StatePart::Layer());
-  }
-  StateSpace::Path path = space.path_to(targets, first);
+  StateSpace::Path path = space.path_to(met);
   if (property.kind == Kind::can_start) {
-    const std::uint32_t index = model.catalog().tasks[property.task].catalog_index;
+    const CompiledCatalog& catalog = tests.front()->system().model().catalog();
+    const std::uint32_t index = catalog.tasks[property.task].catalog_index;
     path.moves.push_back({Move::Kind::start, index, property.priority});
   } else if (property.kind == Kind::keeps_running) {
-    path.moves.push_back(find_ending(property, model, path.end));
+    path.moves.push_back(find_ending(property, tests.front()->system(), path.end));
   }
   verdict.script = std::move(path.moves);
   return verdict;

@@ -7,6 +7,8 @@
 
 #include "core/property/properties.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "verify/engine/catalog_system.h"
+#include "verify/engine/first_states.h"
 #include "verify/engine/model.h"
 #include "verify/engine/state_space.h"
 #include "verify/engine/state_test.h"
@@ -27,14 +29,13 @@ struct Verdict {
 };
 
 /// Looks in a part of the states for the first ones that decide a property, while a StateSpace
-/// runs. The property and the model must outlive it.
+/// runs. The property, the part and its system must outlive it.
 class PropertyTest {
  public:
   using States = StatePart::States;
   using Layer = StatePart::Layer;
-  static constexpr std::uint32_t never_seen = UINT32_MAX;
 
-  PropertyTest(const Property& property, const Model& model, StatePart& part);
+  PropertyTest(const Property& property, CatalogSystem& system, StatePart& part);
   PropertyTest(const PropertyTest&) = delete;
   PropertyTest& operator=(const PropertyTest&) = delete;
   virtual ~PropertyTest() = default;
@@ -49,48 +50,48 @@ class PropertyTest {
   /// Whether on_outcome() is to be called.
   [[nodiscard]] virtual bool looks_at_moves() const { return false; }
 
-  /// The least depth of states that decide it; never_seen: there is none yet.
-  [[nodiscard]] std::uint32_t first() const { return first_; }
-  /// Those of that depth. All of the part are known once its layer was visited, and, of can_start
-  /// and keeps_running, all moves of the layer were made.
-  [[nodiscard]] const Layer& met() const { return met_; }
+  /// The states that decide it. All of a depth in the part are known once its layer was visited,
+  /// and, of can_start and keeps_running, all moves of the layer were made.
+  [[nodiscard]] const FirstStates& met() const { return met_; }
   /// Whether some state counts.
   [[nodiscard]] bool has_counted() const { return has_counted_; }
+  [[nodiscard]] CatalogSystem& system() const { return system_; }
 
   /// Of always_possible, after the run: the states of the part that satisfy the condition.
   [[nodiscard]] virtual Layer goals() { return {}; }
   /// Takes note of the states of a depth that count, but are not among those from which these goals
   /// can be reached, by control. Their control is loaded.
-  void note_stuck(const States& states, const std::vector<Environments::Set>& can_reach,
+  void note_stuck(const States& states, const std::vector<StatePart::Set>& can_reach,
                   std::uint32_t depth);
 
  protected:
-  using Set = Environments::Set;
+  using Set = StatePart::Set;
 
   /// Of these states, those that count by `when`, `settled` and the mark.
   [[nodiscard]] Set counted(const States& states);
   /// Takes note of states that decide the property.
-  void note(const States& states, std::uint32_t depth);
-  [[nodiscard]] Diagrams& sets() { return part_.environments().sets(); }
-  [[nodiscard]] const Stepper& control() const { return part_.controls().stepper(); }
+  void note(const States& states, std::uint32_t depth) { met_.add(states, depth); }
+  [[nodiscard]] Diagrams& sets() { return system_.sets(); }
+  [[nodiscard]] const Stepper& control() const { return system_.stepper(); }
 
   const Property& property_;
+  CatalogSystem& system_;
   const Model& model_;
   StatePart& part_;
 
  private:
   std::optional<StateTest> when_;
-  bool has_counted_ = false;          ///< some state
-  std::uint32_t first_ = never_seen;  ///< the depth
-  Layer met_;
+  bool has_counted_ = false;  ///< some state
+  FirstStates met_;
 };
 
 /// The test for a kind of property.
 [[nodiscard]] std::unique_ptr<PropertyTest> make_property_test(const Property& property,
-                                                               const Model& model, StatePart& part);
+                                                               CatalogSystem& system,
+                                                               StatePart& part);
 
 /// The tests of all parts for one property, after the run.
-[[nodiscard]] Verdict find_verdict(const Property& property, const Model& model, StateSpace& space,
+[[nodiscard]] Verdict find_verdict(const Property& property, StateSpace& space,
                                    const std::vector<PropertyTest*>& tests);
 
 }  // namespace cbc

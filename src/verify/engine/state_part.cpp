@@ -13,42 +13,32 @@
 #include <algorithm>
 #include <utility>
 
-#include "verify/engine/move_kinds.h"
-
 namespace cbc {
 
 namespace {
 
 using Number = Controls::Number;
-using Set = Environments::Set;
+using Set = StatePart::Set;
 
 }  // namespace
 
-StatePart::StatePart(const Model& model, const Stepper::Options& options,
-                     const std::optional<Mark>& mark, std::size_t place, std::size_t count)
-    : model_(model),
-      place_(place),
-      count_(count),
-      environments_(model, mark.has_value()),
-      controls_(model, environments_, options) {
-  if (!mark) return;
-  mark_after_.emplace(model, mark->after, environments_);
-  keep(*mark_after_);
-  if (!mark->until) return;
-  mark_until_.emplace(model, *mark->until, environments_);
-  keep(*mark_until_);
-}
+StatePart::StatePart(std::unique_ptr<ControlSystem> system, std::size_t place, std::size_t count)
+    : system_(std::move(system)), place_(place), count_(count), controls_(*system_) {}
 
 void StatePart::begin() {
-  const std::vector<std::uint16_t> first = model_.first_state();
-  const Number control = controls_.find(first.data());
-  if (is_own(control)) add(control, environments_.environment_of(first.data()));
+  const Number control = controls_.find(system_->first_control().data());
+  if (!is_own(control)) return;
+  Diagrams::Values values;
+  for (const std::uint8_t bit : system_->first_environment()) {
+    values.bits.emplace_back(values.bits.size(), bit != 0);
+  }
+  add(control, system_->sets().with(values));
 }
 
 std::uint64_t StatePart::bytes() const {
   std::uint64_t of_layers = 0;
   for (const Layer& layer : layers_) of_layers += layer.capacity() * sizeof(States);
-  return environments_.sets().bytes() + controls_.bytes() + of_layers;
+  return system_->sets().bytes() + controls_.bytes() + of_layers;
 }
 
 /// Of some states, those that are new.
@@ -58,22 +48,13 @@ void StatePart::add(Number control, Set environments) {
     visited_.resize(count, Diagrams::empty);
     next_.resize(count, Diagrams::empty);
   }
+  Diagrams& sets = system_->sets();
   // With a mark, end_layer() finds out which of them are new.
   const Set fresh =
-      mark_after_ ? environments : environments_.sets().without(environments, visited_[control]);
+      system_->has_mark() ? environments : sets.without(environments, visited_[control]);
   if (fresh == Diagrams::empty) return;
   if (next_[control] == Diagrams::empty) touched_.push_back(control);
-  next_[control] = environments_.sets().either(next_[control], fresh);
-}
-
-void StatePart::add_faults(const States& states) {
-  if (model_.layout().faulty_count == 0) return;
-  transitions_ += environments_.count_faults(states.environments) +
-                  environments_.count_repairs(states.environments);
-  add(states.control, environments_.after_fault(states.environments));
-  for (std::uint32_t group = 0; group < model_.groups().size(); ++group) {
-    add(controls_.after_repair(group), environments_.after_repair(group, states.environments));
-  }
+  next_[control] = sets.either(next_[control], fresh);
 }
 
 /// Those that were told of before are left out.
@@ -82,7 +63,7 @@ StatePart::Parcel StatePart::take_found(std::size_t part) {
   erase_if(touched_, [&](Number control) {
     if (part_of(controls_.packed(control)) != part) return false;
     const Set set = std::exchange(next_[control], Diagrams::empty);
-    visited_[control] = environments_.sets().either(visited_[control], set);
+    visited_[control] = system_->sets().either(visited_[control], set);
     found.push_back({control, set});
     return true;
   });
@@ -91,27 +72,30 @@ StatePart::Parcel StatePart::take_found(std::size_t part) {
 
 StatePart::Parcel StatePart::pack(const Layer& layer) {
   Parcel parcel;
+  const std::size_t words = system_->first_control().size();
   for (const States& states : layer) {
     const std::uint32_t* const packed = controls_.packed(states.control);
-    parcel.controls.insert(parcel.controls.end(), packed, packed + model_.packed_words());
-    environments_.sets().put(states.environments, parcel.environments);
+    parcel.controls.insert(parcel.controls.end(), packed, packed + words);
+    system_->sets().put(states.environments, parcel.environments);
   }
   return parcel;
 }
 
 void StatePart::add(const Parcel& parcel) {
-  const std::vector<Set> sets = environments_.sets().take(parcel.environments);
+  const std::size_t words = system_->first_control().size();
+  const std::vector<Set> sets = system_->sets().take(parcel.environments);
   for (std::size_t place = 0; place < sets.size(); ++place) {
-    add(controls_.find_packed(&parcel.controls[place * model_.packed_words()]), sets[place]);
+    add(controls_.find(&parcel.controls[place * words]), sets[place]);
   }
 }
 
 StatePart::Layer StatePart::unpack(const std::vector<Parcel>& parcels) {
   Layer layer;
+  const std::size_t words = system_->first_control().size();
   for (const Parcel& parcel : parcels) {
-    const std::vector<Set> sets = environments_.sets().take(parcel.environments);
+    const std::vector<Set> sets = system_->sets().take(parcel.environments);
     for (std::size_t place = 0; place < sets.size(); ++place) {
-      const auto control = controls_.known(&parcel.controls[place * model_.packed_words()]);
+      const auto control = controls_.known(&parcel.controls[place * words]);
       if (control) layer.push_back({*control, sets[place]});
     }
   }
@@ -121,30 +105,30 @@ StatePart::Layer StatePart::unpack(const std::vector<Parcel>& parcels) {
 }
 
 std::uint64_t StatePart::end_layer() {
+  Diagrams& sets = system_->sets();
   std::sort(touched_.begin(), touched_.end());
   Layer& layer = layers_.emplace_back();
   std::uint64_t states = 0;
   for (const Number control : touched_) {
     Set set = std::exchange(next_[control], Diagrams::empty);
-    if (mark_after_) {
+    if (system_->has_mark()) {
       controls_.load(control);
-      const MarkSets marks = find_marks(controls_.stepper());
-      set = environments_.with_mark(set, marks.to_set, marks.to_clear);
-      set = environments_.sets().without(set, visited_[control]);
+      set = sets.without(system_->with_marks(set), visited_[control]);
       if (set == Diagrams::empty) continue;
     }
     if (visited_[control] == Diagrams::empty) ++controls_visited_;
-    visited_[control] = environments_.sets().either(visited_[control], set);
+    visited_[control] = sets.either(visited_[control], set);
     layer.push_back({control, set});
-    states += environments_.sets().count(set);
+    states += sets.count(set);
   }
   touched_.clear();
   return states;
 }
 
 void StatePart::collect() {
-  environments_.sets().collect([&](auto&& keep) {
-    environments_.for_each_kept(keep);
+  system_->sets().collect([&](auto&& keep) {
+    system_->for_each_kept(keep);
+    controls_.for_each_kept(keep);
     for (const Set set : visited_) keep(set);
     for (const Set set : next_) keep(set);
     for (const Layer& layer : layers_) {
@@ -165,18 +149,19 @@ Set StatePart::environments_in(const Layer& layer, Number control) {
 void StatePart::find_predecessors() {
   predecessors_.resize(controls_.size());
   const auto add_one = [&](Number target, Number control) {
+    if (target >= predecessors_.size()) return;
     auto& list = predecessors_[target];
     if (list.empty() || list.back() != control) list.push_back(control);
   };
+  const FaultSets& faults = system_->faults();
   for (Number control = 0; control < predecessors_.size(); ++control) {
     if (!is_own(control)) continue;
     for (const Number successor : controls_.successors_of(control)) add_one(successor, control);
-    if (model_.layout().faulty_count == 0 || visited(control) == Diagrams::empty) continue;
-    add_one(control, control);
+    if (faults.count() == 0 || visited(control) == Diagrams::empty) continue;
     controls_.load(control);
-    for (std::uint32_t group = 0; group < model_.groups().size(); ++group) {
-      const Number repaired = controls_.after_repair(group);
-      if (repaired < predecessors_.size()) add_one(repaired, control);
+    add_one(controls_.after_fault().control, control);
+    for (std::uint32_t kind = 0; kind < faults.kind_count(); ++kind) {
+      add_one(controls_.after_repair(kind).control, control);
     }
   }
 }
@@ -195,55 +180,54 @@ std::vector<Number> StatePart::controls_before(const Layer& layer) {
   return sources;
 }
 
-StatePart::MarkSets StatePart::find_marks(const Stepper& control) {
-  MarkSets marks;
-  if (mark_until_) marks.to_clear = mark_until_->holds_in(control, environments_.sets());
-  marks.to_set = mark_after_->holds_in(control, environments_.sets());
-  marks.to_set = environments_.sets().without(marks.to_set, marks.to_clear);
-  return marks;
-}
-
-/// Of some states, those from which a move of the kinds (null: all) leads to one of the wanted
+/// Of some states, those from which a move of the selection (null: all) leads to one of the wanted
 /// ones, of which the mark is still that of the state before. Loads their control.
-Set StatePart::sources_in(const States& all, const Layer& wanted, const MoveKinds* kinds) {
-  Diagrams& sets = environments_.sets();
+Set StatePart::sources_in(const States& all, const Layer& wanted, const MoveSelection* selection) {
+  Diagrams& sets = system_->sets();
   controls_.load(all.control);
   Set found = Diagrams::empty;
-  for (std::uint32_t action = 0; action < environments_.effects().size(); ++action) {
-    if (!controls_.may_have(action)) continue;
-    const Controls::Action& made = controls_.actions()[action];
-    if (kinds != nullptr && !is_of_kinds(*kinds, made.choice, model_)) continue;
-    const Set set = sets.both(all.environments, made.effect.condition);
+  const auto& actions = system_->actions();
+  for (std::uint32_t action = 0; action < actions.size(); ++action) {
+    const ControlSystem::Action& made = actions[action];
+    if (!made.is_move || !system_->may_have(action)) continue;
+    if (selection != nullptr && selection->actions[action] == 0) continue;
+    const Set set = sets.both(all.environments, made.condition);
     if (set == Diagrams::empty) continue;
     controls_.for_each_outcome(action, set, [&](Controls::Outcome outcome, Set part) {
       const Set after = environments_in(wanted, outcome.control);
       if (after == Diagrams::empty) return;
-      found = sets.either(found, sets.both(part, environments_.before(made.effect, after)));
+      found = sets.either(found, sets.both(part, system_->before(made, after)));
     });
   }
-  if (model_.layout().faulty_count == 0) return found;
-  if (kinds == nullptr || kinds->fault) {
-    const Set after = environments_in(wanted, all.control);
-    found = sets.either(found, sets.both(all.environments, environments_.before_fault(after)));
+  return sets.either(found, sources_by_faults(all, wanted, selection));
+}
+
+/// The control is loaded.
+Set StatePart::sources_by_faults(const States& all, const Layer& wanted,
+                                 const MoveSelection* selection) {
+  FaultSets& faults = system_->faults();
+  Diagrams& sets = system_->sets();
+  Set found = Diagrams::empty;
+  if (faults.count() == 0) return found;
+  if (selection == nullptr || selection->has_fault) {
+    const Set after = environments_in(wanted, controls_.after_fault().control);
+    found = sets.both(all.environments, faults.before_fault(after));
   }
-  if (kinds != nullptr && !kinds->repair) return found;
-  for (std::uint32_t group = 0; group < model_.groups().size(); ++group) {
-    const Set after = environments_in(wanted, controls_.after_repair(group));
-    found =
-        sets.either(found, sets.both(all.environments, environments_.before_repair(group, after)));
+  if (selection != nullptr && !selection->has_repair) return found;
+  for (std::uint32_t kind = 0; kind < faults.kind_count(); ++kind) {
+    const Set after = environments_in(wanted, controls_.after_repair(kind).control);
+    found = sets.either(found, sets.both(all.environments, faults.before_repair(kind, after)));
   }
   return found;
 }
 
 /// The states as they are before their marks are set and cleared.
 StatePart::Layer StatePart::before_marks(const Layer& layer) {
-  if (!mark_after_) return layer;
+  if (!system_->has_mark()) return layer;
   Layer before = layer;
   for (States& states : before) {
     controls_.load(states.control);
-    const MarkSets marks = find_marks(controls_.stepper());
-    states.environments =
-        environments_.before_mark(states.environments, marks.to_set, marks.to_clear);
+    states.environments = system_->before_marks(states.environments);
   }
   return before;
 }

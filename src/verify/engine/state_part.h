@@ -1,33 +1,33 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
+#include "verify/engine/control_system.h"
 #include "verify/engine/controls.h"
-#include "verify/engine/environments.h"
-#include "verify/engine/model.h"
-#include "verify/engine/state_test.h"
 
 namespace cbc {
 
-/// A part of the states of a model, for one thread: those whose control is its own, by a hash of
+/// Some moves of a system.
+struct MoveSelection {
+  std::vector<std::uint8_t> actions;  ///< by action
+  bool has_fault = false;
+  bool has_repair = false;
+};
+
+/// A part of the states of a system, for one thread: those whose control is its own, by a hash of
 /// the control. Everything in it, numbers of controls and sets too, means something in this part
 /// only. See StateSpace.
 class StatePart {
  public:
-  using Set = Environments::Set;
+  using Set = ControlSystem::Set;
   /// States of one control, in the environments of a set.
   struct States {
     Controls::Number control = 0;
     Set environments = Diagrams::empty;
   };
   using Layer = std::vector<States>;  ///< in the order of controls
-  /// A mark that is part of the states; see Property::after.
-  struct Mark {
-    StateCondition after;
-    std::optional<StateCondition> until;
-  };
   /// States on their way to another part.
   struct Parcel {
     std::vector<std::uint32_t> controls;  ///< packed, one after the other
@@ -35,19 +35,15 @@ class StatePart {
   };
 
   /// It is the part number `place` of `count` parts.
-  StatePart(const Model& model, const Stepper::Options& options, const std::optional<Mark>& mark,
-            std::size_t place, std::size_t count);
+  StatePart(std::unique_ptr<ControlSystem> system, std::size_t place, std::size_t count);
 
-  [[nodiscard]] Environments& environments() { return environments_; }
+  [[nodiscard]] ControlSystem& system() { return *system_; }
   [[nodiscard]] Controls& controls() { return controls_; }
   /// Keeps sets from being forgotten while states are visited.
   void keep(const States& states) { kept_.push_back(states.environments); }
-  void keep(const StateTest& test) {
-    test.for_each_kept([this](Set set) { kept_.push_back(set); });
-  }
   /// Forgets, if there are many sets, those that are neither kept nor of a layer.
   void collect_if_crowded() {
-    if (environments_.sets().is_crowded()) collect();
+    if (system_->sets().is_crowded()) collect();
   }
 
   // Visiting states.
@@ -83,10 +79,10 @@ class StatePart {
   /// Those states of parcels of all parts whose controls are known here.
   [[nodiscard]] Layer unpack(const std::vector<Parcel>& parcels);
   /// Of the part's own states, for each control those that `here` returns, the states with a move
-  /// of the kinds (null: all) to some of the layer, of which the mark is still that of the state
-  /// before.
+  /// of the selection (null: all) to some of the layer, of which the mark is still that of the
+  /// state before.
   template <typename Here>
-  [[nodiscard]] Layer sources_of(const Layer& layer, const MoveKinds* kinds, Here&& here);
+  [[nodiscard]] Layer sources_of(const Layer& layer, const MoveSelection* selection, Here&& here);
   /// The states as they are before their marks are set and cleared.
   [[nodiscard]] Layer before_marks(const Layer& layer);
   [[nodiscard]] static Set environments_in(const Layer& layer, Controls::Number control);
@@ -98,31 +94,24 @@ class StatePart {
     return part_of(controls_.packed(control)) == place_;
   }
 
-  /// Where the mark is set, and where it is cleared, in states of a loaded control.
-  struct MarkSets {
-    Set to_set = Diagrams::empty;
-    Set to_clear = Diagrams::empty;
-  };
-  [[nodiscard]] bool has_mark() const { return mark_after_.has_value(); }
-  [[nodiscard]] MarkSets find_marks(const Stepper& control);
-
  private:
   void add(Controls::Number control, Set environments);
   template <typename Visitor, typename MayGoOn>
   bool make_moves_of(const States& states, Visitor& visitor, MayGoOn& may_go_on);
-  void add_faults(const States& states);
+  template <typename Visitor>
+  void add_faults(const States& states, Visitor& visitor);
   void collect();
   void find_predecessors();
   [[nodiscard]] std::vector<Controls::Number> controls_before(const Layer& layer);
-  [[nodiscard]] Set sources_in(const States& all, const Layer& wanted, const MoveKinds* kinds);
+  [[nodiscard]] Set sources_in(const States& all, const Layer& wanted,
+                               const MoveSelection* selection);
+  [[nodiscard]] Set sources_by_faults(const States& all, const Layer& wanted,
+                                      const MoveSelection* selection);
 
-  const Model& model_;
+  const std::unique_ptr<ControlSystem> system_;
   const std::size_t place_;
   const std::size_t count_;
-  Environments environments_;
   Controls controls_;
-  std::optional<StateTest> mark_after_;  ///< nothing: there is no mark
-  std::optional<StateTest> mark_until_;
   std::vector<Layer> layers_;
   std::vector<Set> visited_;               ///< by control; of other parts: what they were told of
   std::vector<Set> next_;                  ///< by control: of the next layer
@@ -155,35 +144,58 @@ bool StatePart::make_moves(std::uint32_t depth, Visitor& visitor, MayGoOn&& may_
 
 template <typename Visitor, typename MayGoOn>
 bool StatePart::make_moves_of(const States& states, Visitor& visitor, MayGoOn& may_go_on) {
-  Diagrams& sets = environments_.sets();
-  for (std::uint32_t action = 0; action < controls_.actions().size(); ++action) {
-    if (!controls_.may_have(action)) continue;
-    const Controls::Action& made = controls_.actions()[action];
-    const Set set = sets.both(states.environments, made.effect.condition);
+  Diagrams& sets = system_->sets();
+  const auto& actions = system_->actions();
+  for (std::uint32_t action = 0; action < actions.size(); ++action) {
+    if (!system_->may_have(action)) continue;
+    const ControlSystem::Action& made = actions[action];
+    const Set set = sets.both(states.environments, made.condition);
     if (set == Diagrams::empty) continue;
     if (made.is_move) transitions_ += sets.count(set);
-    const bool is_start = made.choice.move.kind == Move::Kind::start;
     controls_.for_each_outcome(action, set, [&](Controls::Outcome outcome, Set part) {
       const States from{states.control, part};
-      if (is_start && !outcome.accepted) visitor.on_refusal(action, from);
-      if (!made.is_move) return;
+      if (outcome.note != 0) visitor.on_note(outcome.note, from);
+      if (made.is_start && !outcome.accepted) visitor.on_refusal(action, from);
+      if (outcome.control == none) return;
       visitor.on_outcome(action, from, outcome);
-      const bool changes = made.effect.changes || outcome.control != states.control;
-      if (changes) add(outcome.control, environments_.after(made.effect, part));
+      const bool changes = made.changes || outcome.control != states.control;
+      if (changes) add(outcome.control, system_->after(made, part));
     });
     if (!may_go_on()) return false;
   }
-  add_faults(states);
+  add_faults(states, visitor);
   return true;
 }
 
+template <typename Visitor>
+void StatePart::add_faults(const States& states, Visitor& visitor) {
+  FaultSets& faults = system_->faults();
+  if (faults.count() == 0) return;
+  transitions_ += faults.count_moves(states.environments);
+  const auto take = [&](const Controls::Outcome& outcome, Set after, const auto& before) {
+    if (after == Diagrams::empty) return;
+    if (outcome.note != 0) {
+      visitor.on_note(outcome.note,
+                      {states.control, system_->sets().both(states.environments, before())});
+    }
+    if (outcome.control != none) add(outcome.control, after);
+  };
+  take(controls_.after_fault(), faults.after_fault(states.environments),
+       [&] { return faults.before_fault(Diagrams::all); });
+  for (std::uint32_t kind = 0; kind < faults.kind_count(); ++kind) {
+    take(controls_.after_repair(kind), faults.after_repair(kind, states.environments),
+         [&] { return faults.before_repair(kind, Diagrams::all); });
+  }
+}
+
 template <typename Here>
-StatePart::Layer StatePart::sources_of(const Layer& layer, const MoveKinds* kinds, Here&& here) {
+StatePart::Layer StatePart::sources_of(const Layer& layer, const MoveSelection* selection,
+                                       Here&& here) {
   Layer sources;
   for (const Controls::Number control : controls_before(layer)) {
     const Set set = here(control);
     if (set == Diagrams::empty) continue;
-    const Set found = sources_in({control, set}, layer, kinds);
+    const Set found = sources_in({control, set}, layer, selection);
     if (found != Diagrams::empty) sources.push_back({control, found});
   }
   return sources;

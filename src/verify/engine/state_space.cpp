@@ -15,24 +15,16 @@ namespace cbc {
 namespace {
 
 using Number = Controls::Number;
-using Set = Environments::Set;
+using Set = StatePart::Set;
 using Layer = StatePart::Layer;
 using Parcels = std::vector<StatePart::Parcel>;
 
 }  // namespace
 
-StateSpace::StateSpace(const Model& model, const Stepper::Options& options,
-                       const ExplorationLimits& limits, unsigned threads, OnProgress on_progress,
-                       const std::optional<StatePart::Mark>& mark)
-    : model_(model),
-      options_(options),
-      limits_(limits),
-      on_progress_(std::move(on_progress)),
-      told_(threads) {
-  Stepper::Options of_part = options;
-  of_part.decision_bytes /= threads;
-  for (unsigned place = 0; place < threads; ++place) {
-    parts_.push_back(std::make_unique<StatePart>(model, of_part, mark, place, threads));
+StateSpace::StateSpace(Systems systems, const ExplorationLimits& limits, OnProgress on_progress)
+    : limits_(limits), on_progress_(std::move(on_progress)), told_(systems.size()) {
+  for (std::unique_ptr<ControlSystem>& system : systems) {
+    parts_.push_back(std::make_unique<StatePart>(std::move(system), parts_.size(), systems.size()));
   }
   if (limits_.seconds > 0) {
     deadline_ = std::chrono::steady_clock::now() +
@@ -117,7 +109,7 @@ bool StateSpace::end_by(ExplorationEnd end) {
 
 /// All states up to a depth were visited, and no more are asked for.
 void StateSpace::end_with(std::uint32_t depth) {
-  expanded_depth_ = depth;
+  expanded_layers_ = depth + 1;
   is_decided_ = true;
 }
 
@@ -161,10 +153,17 @@ std::vector<Layer> StateSpace::share(const std::vector<Layer>& layers) {
   return shared;
 }
 
-StateSpace::Path StateSpace::path_to(const std::vector<Layer>& targets, std::uint32_t depth) {
+std::uint32_t StateSpace::least_depth(const std::vector<const FirstStates*>& noted) {
+  std::uint32_t depth = FirstStates::never;
+  for (const FirstStates* const states : noted) depth = std::min(depth, states->depth());
+  return depth;
+}
+
+/// By depth and part, states from which targets of a depth can be reached in time, before their
+/// marks are set and cleared.
+std::vector<std::vector<Layer>> StateSpace::layers_before(const std::vector<Layer>& targets,
+                                                          std::uint32_t depth) {
   const std::size_t count = parts_.size();
-  // By depth and part, states from which targets can be reached in time, before their marks are set
-  // and cleared.
   std::vector<std::vector<Layer>> wanted(depth + 1, std::vector<Layer>(count));
   const auto set_wanted = [&](std::uint32_t at, const std::vector<Layer>& layers) {
     for (std::size_t part = 0; part < count; ++part) {
@@ -183,48 +182,50 @@ StateSpace::Path StateSpace::path_to(const std::vector<Layer>& targets, std::uin
     });
     set_wanted(after - 1, found);
   }
+  return wanted;
+}
 
-  Path path{{}, model_.packed_first()};
-  Stepper stepper(model_, options_);
-  std::vector<std::uint8_t> string;
-  const auto part_of = [&](const std::uint16_t* cells) {
-    StatePart& any = *parts_.front();
-    return any.part_of(any.controls().pack(cells));
-  };
-  bool is_marked = false;
-  for (std::uint32_t after = 0;; ++after) {
-    stepper.load(path.end.data());
-    if (StatePart& part = *parts_.front(); part.has_mark()) {
-      const Diagrams& sets = part.environments().sets();
-      part.environments().read(stepper.cells(), string);
-      const StatePart::MarkSets marks = part.find_marks(stepper);
-      is_marked = !sets.contains(marks.to_clear, string) &&
-                  (is_marked || sets.contains(marks.to_set, string));
-    }
-    if (after == depth) return path;
-    for (const Model::Choice& choice : model_.moves()) {
-      if (!stepper.try_move(choice)) continue;
-      const std::size_t place = part_of(stepper.cells_after());
-      StatePart& part = *parts_[place];
-      const Number control = part.controls().find(stepper.cells_after());
-      part.environments().read(stepper.cells_after(), string);
-      if (part.has_mark()) part.environments().write_mark(is_marked, string);
-      const Set set = StatePart::environments_in(wanted[after + 1][place], control);
-      if (!part.environments().sets().contains(set, string)) continue;
-      path.moves.push_back(stepper.move_of(choice));
-      stepper.pack(path.end.data());
+StateSpace::Path StateSpace::path_to(const std::vector<const FirstStates*>& noted) {
+  const std::uint32_t depth = least_depth(noted);
+  std::vector<Layer> targets;
+  for (const FirstStates* const states : noted) {
+    targets.push_back(states->depth() == depth ? states->layer() : Layer());
+  }
+  const std::vector<std::vector<Layer>> wanted = layers_before(targets, depth);
+  Path path{{}, {}, StateWalker(*parts_.front())};
+  const auto& moves = parts_.front()->system().moves();
+  for (std::uint32_t after = 1; after <= depth; ++after) {
+    for (std::size_t place = 0; place < moves.size(); ++place) {
+      const auto outcome = path.end.try_move(place);
+      if (!outcome || outcome->control == none || !leads_to(path.end, wanted[after])) continue;
+      path.moves.push_back(moves[place].move);
+      path.places.push_back(place);
+      path.end.go_on();
       break;
     }
   }
+  return path;
+}
+
+/// Whether the move that was made leads to one of these states, by part.
+bool StateSpace::leads_to(const StateWalker& walker, const std::vector<Layer>& wanted) const {
+  const std::uint32_t* const packed = walker.control_after();
+  const std::size_t place = parts_.front()->part_of(packed);
+  StatePart& part = *parts_[place];
+  const auto control = part.controls().known(packed);
+  if (!control) return false;
+  return part.system().sets().contains(StatePart::environments_in(wanted[place], *control),
+                                       walker.environment_after());
 }
 
 std::optional<std::vector<std::vector<Set>>> StateSpace::can_reach(
-    const std::vector<Layer>& goals, const MoveKinds* kinds, std::optional<std::uint32_t> within) {
+    const std::vector<Layer>& goals, const MoveSelection* selection,
+    std::optional<std::uint32_t> within) {
   std::vector<std::vector<Set>> reaching;
   for (const auto& part : parts_) reaching.emplace_back(part->controls().size(), Diagrams::empty);
   std::vector<Layer> newest = goals;
   const auto add = [&](std::size_t part) {
-    Diagrams& sets = parts_[part]->environments().sets();
+    Diagrams& sets = parts_[part]->system().sets();
     for (const States& states : newest[part]) {
       Set& known = reaching[part][states.control];
       known = sets.either(known, states.environments);
@@ -241,11 +242,11 @@ std::optional<std::vector<std::vector<Set>>> StateSpace::can_reach(
     for (const Layer& layer : wanted) size += layer.size();
     for_each_part(size, [&](std::size_t place) {
       StatePart& part = *parts_[place];
-      newest[place] = part.sources_of(wanted[place], kinds, [&](Number control) {
+      newest[place] = part.sources_of(wanted[place], selection, [&](Number control) {
         const bool goes_on = may_go_on(place);
-        return !goes_on ? Diagrams::empty
-                        : part.environments().sets().without(part.visited(control),
-                                                             reaching[place][control]);
+        return !goes_on
+                   ? Diagrams::empty
+                   : part.system().sets().without(part.visited(control), reaching[place][control]);
       });
       add(place);
     });

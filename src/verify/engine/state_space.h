@@ -11,12 +11,15 @@
 
 #include "core/support/system.h"
 #include "verify/engine/breadth_first.h"
+#include "verify/engine/control_system.h"
+#include "verify/engine/first_states.h"
 #include "verify/engine/model.h"
 #include "verify/engine/state_part.h"
+#include "verify/engine/state_walker.h"
 
 namespace cbc {
 
-/// The reachable states of a model, by the least number of moves to them: for each number the
+/// The reachable states of a system, by the least number of moves to them: for each number the
 /// controls, and the environments in which each was new. One round is one move, so depths, counts
 /// and shortest paths are those of single states (docs/verify.md, "Size"). The states are shared
 /// out to parts, each with a thread of its own; what is found does not depend on their number.
@@ -25,19 +28,21 @@ class StateSpace {
   using Set = StatePart::Set;
   using States = StatePart::States;
   using Layer = StatePart::Layer;
+  /// One for each part, and all alike.
+  using Systems = std::vector<std::unique_ptr<ControlSystem>>;
   using OnProgress = std::function<bool(const ExplorationProgress&)>;
 
-  /// `threads`: at least 1.
-  StateSpace(const Model& model, const Stepper::Options& options, const ExplorationLimits& limits,
-             unsigned threads, OnProgress on_progress,
-             const std::optional<StatePart::Mark>& mark = {});
+  /// `systems`: at least one.
+  StateSpace(Systems systems, const ExplorationLimits& limits, OnProgress on_progress);
 
   [[nodiscard]] std::vector<std::unique_ptr<StatePart>>& parts() { return parts_; }
 
   /// Visits all states; once. There is a visitor for each part, which has
   ///   visit(states, depth)   new states, whose control is loaded
   ///   on_refusal(action, states)   some of them, in which a start is rejected
-  ///   on_outcome(action, states, outcome)   some of them, and what a move makes of their control
+  ///   on_outcome(action, states, outcome)   some of them, and what a move makes of their control;
+  ///     not of faults and repairs
+  ///   on_note(note, states)   some of them, and what the system says of a move
   /// `is_done()` returns whether all is known that is looked for, so that the run may end.
   template <typename Visitor, typename IsDone>
   void run(std::vector<Visitor>& visitors, IsDone&& is_done);
@@ -48,8 +53,12 @@ class StateSpace {
   [[nodiscard]] ExplorationEnd end() const { return end_; }
   [[nodiscard]] std::uint64_t states() const { return states_; }
   [[nodiscard]] std::uint64_t transitions() const;
-  /// All states up to this depth were expanded, or, if the visitors ended it, visited.
-  [[nodiscard]] std::uint32_t expanded_depth() const { return expanded_depth_; }
+  /// All states up to this depth were expanded, or, if the visitors ended it, visited. 0 also if
+  /// none was.
+  [[nodiscard]] std::uint32_t expanded_depth() const {
+    return expanded_layers_ == 0 ? 0 : expanded_layers_ - 1;
+  }
+  [[nodiscard]] bool is_expanded(std::uint32_t depth) const { return depth < expanded_layers_; }
   [[nodiscard]] const std::vector<std::uint64_t>& states_at_depth() const {
     return states_at_depth_;
   }
@@ -60,15 +69,19 @@ class StateSpace {
   /// A path from the first state.
   struct Path {
     std::vector<Move> moves;
-    std::vector<std::uint32_t> end;  ///< the state after them, packed
+    std::vector<std::size_t> places;  ///< of the moves, in ControlSystem::moves()
+    StateWalker end;                  ///< has gone there, in the first part
   };
-  /// The first shortest path to one of these states, by part, which are new at the depth.
-  [[nodiscard]] Path path_to(const std::vector<Layer>& targets, std::uint32_t depth);
+  /// The first shortest path to one of the states that were noted, by part; there must be one.
+  [[nodiscard]] Path path_to(const std::vector<const FirstStates*>& noted);
+  /// See FirstStates::depth(), of all parts.
+  [[nodiscard]] static std::uint32_t least_depth(const std::vector<const FirstStates*>& noted);
   /// By part and control, the environments of the states from which one of the goals, by part, can
-  /// be reached by moves of some kinds (null: all), in so many moves (nothing: any number). Nothing
-  /// if a limit ends it; then is_complete() is false.
+  /// be reached by moves of a selection (null: all), in so many moves (nothing: any number).
+  /// Nothing if a limit ends it; then is_complete() is false.
   [[nodiscard]] std::optional<std::vector<std::vector<Set>>> can_reach(
-      const std::vector<Layer>& goals, const MoveKinds* kinds, std::optional<std::uint32_t> within);
+      const std::vector<Layer>& goals, const MoveSelection* selection,
+      std::optional<std::uint32_t> within);
 
  private:
   /// Does something with each part, at the same time if there is much to do.
@@ -81,9 +94,10 @@ class StateSpace {
   void end_layer();
   [[nodiscard]] std::uint64_t size_of_layer(std::uint32_t depth) const;
   [[nodiscard]] std::vector<Layer> share(const std::vector<Layer>& layers);
+  [[nodiscard]] std::vector<std::vector<Layer>> layers_before(const std::vector<Layer>& targets,
+                                                              std::uint32_t depth);
+  [[nodiscard]] bool leads_to(const StateWalker& walker, const std::vector<Layer>& wanted) const;
 
-  const Model& model_;
-  const Stepper::Options options_;
   const ExplorationLimits limits_;
   const OnProgress on_progress_;
   std::vector<std::unique_ptr<StatePart>> parts_;
@@ -91,7 +105,7 @@ class StateSpace {
   bool is_decided_ = false;
   ExplorationEnd end_ = ExplorationEnd::stopped;
   std::uint64_t states_ = 0;
-  std::uint32_t expanded_depth_ = 0;
+  std::uint32_t expanded_layers_ = 0;
   std::vector<std::uint64_t> states_at_depth_;
   std::optional<std::chrono::steady_clock::time_point> deadline_;
   /// What a part says of itself, while others may ask.
@@ -121,7 +135,7 @@ void StateSpace::run(std::vector<Visitor>& visitors, IsDone&& is_done) {
       parts_[part]->make_moves(depth, visitors[part], [&] { return may_go_on(part); });
     });
     if (is_stopped_) return;
-    expanded_depth_ = depth;
+    expanded_layers_ = depth + 1;
     if (is_done()) return end_with(depth);
     end_layer();
   }
