@@ -12,8 +12,8 @@
 #include "verify/engine/same_as.h"
 
 #include <algorithm>
-#include <deque>
 #include <map>
+#include <memory>
 #include <tuple>
 #include <utility>
 
@@ -22,126 +22,79 @@
 #include "core/compare/translation.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
+#include "verify/engine/first_states.h"
+#include "verify/engine/pair_system.h"
+#include "verify/engine/paired_bits.h"
 #include "verify/engine/same_as_answers.h"
 #include "verify/engine/same_as_direct.h"
 #include "verify/engine/same_as_pair.h"
+#include "verify/engine/state_space.h"
 #include "verify/engine/stepper.h"
 
 namespace cbc {
 
 namespace {
 
-using Number = StateStore::Number;
-
-/// Takes pairs of states from one move to the next. A packed pair is the state of the new catalog,
-/// then that of the old one. A move that is decided differently leads back to where it came from.
-class PairStepper {
- public:
-  PairStepper(const ModelPair& models, const ComparisonScope& scope, bool reduce)
-      : moves_(models.moves),
-        old_(models.old_model, {.reduce = reduce}),
-        new_(models.new_model, {.reduce = reduce}),
-        new_words_(models.new_model.packed_words()),
-        loaded_(new_words_ + models.old_model.packed_words()),
-        answers_(models, scope.differences, scope.allow_missing) {
-    old_.set_trace(&old_trace_);
-    new_.set_trace(&new_trace_);
-  }
-  void load(const std::uint32_t* state) {
-    std::copy_n(state, loaded_.size(), loaded_.begin());
-    new_.load(state);
-    old_.load(state + new_words_);
-  }
-  /// Makes a move in both; one that does not know it stays as it is. False: neither state has the
-  /// move, or it leads into an excluded situation.
-  bool try_move(const ModelPair::PairedMove& move) {
-    const bool is_new = move.of_new != nullptr && new_.has_move(*move.of_new);
-    const bool is_old = move.of_old != nullptr && old_.has_move(*move.of_old);
-    if (!is_new && !is_old) return false;
-    old_trace_.events.clear();
-    new_trace_.events.clear();
-    if (!take(new_, move.of_new) || !take(old_, move.of_old)) return false;
-    answers_.compare(new_trace_, old_trace_, new_.cells_after(), old_.cells_after());
-    return true;
-  }
-  [[nodiscard]] const std::vector<ModelPair::PairedMove>& choices() const { return moves_; }
-  void pack(std::uint32_t* packed) const {
-    if (!answers_.is_alike()) {
-      std::copy(loaded_.begin(), loaded_.end(), packed);
-      return;
-    }
-    new_.pack(packed);
-    old_.pack(packed + new_words_);
-  }
-  /// What the last move did.
-  [[nodiscard]] const AnswerComparison& answers() const { return answers_; }
-  [[nodiscard]] AnswerComparison& answers() { return answers_; }
-  /// The move in the loaded states, as the new catalog counts.
-  [[nodiscard]] Move move_of(const ModelPair::PairedMove& move) const {
-    return move.of_new != nullptr ? new_.move_of(*move.of_new) : move.move;
-  }
-
- private:
-  static bool take(Stepper& stepper, const Model::Choice* choice) {
-    if (choice != nullptr) return stepper.take(*choice);
-    stepper.stay();
-    return true;
-  }
-
-  const std::vector<ModelPair::PairedMove>& moves_;
-  Stepper old_;
-  Stepper new_;
-  const std::size_t new_words_;
-  std::vector<std::uint32_t> loaded_;
-  MoveTrace old_trace_;
-  MoveTrace new_trace_;
-  AnswerComparison answers_;
-};
-
-/// A move from a state: the number of the state, and the place of the move.
-struct MoveFrom {
-  Number state = UINT32_MAX;
-  std::size_t move = 0;
-
-  [[nodiscard]] bool is_none() const { return state == UINT32_MAX; }
-  auto operator<=>(const MoveFrom&) const = default;
-};
-
-/// Looks for the first move that is decided differently about each task.
+/// Looks in a part of the pairs for the first moves that are decided differently about each task.
 class DifferenceVisitor {
  public:
-  DifferenceVisitor(const ModelPair& models, const ComparisonScope& scope, bool reduce)
-      : is_first_enough_(scope.differences == ComparisonScope::Differences::expectable),
-        stepper_(models, scope, reduce),
-        found_(models.tasks.size()) {}
+  using States = StatePart::States;
 
-  [[nodiscard]] PairStepper& system() { return stepper_; }
-  [[nodiscard]] bool is_done() const { return is_done_; }
-  void visit(Number /*number*/, Successors& /*successors*/) {}
+  DifferenceVisitor(const PairSystem& system, StatePart& part, std::size_t tasks)
+      : system_(system), found_(tasks, FirstStates(part)) {}
 
-  void on_move(Number number, const ModelPair::PairedMove& move,
-               const std::uint32_t* /*successor*/) {
-    const AnswerComparison& answers = stepper_.answers();
-    is_compared_ = is_compared_ || answers.is_compared();
-    for (const AnswerComparison::Note& note : answers.notes()) {
-      MoveFrom& first = found_[note.task];
-      if (!first.is_none()) continue;
-      first = {number, static_cast<std::size_t>(&move - stepper_.choices().data())};
-      is_done_ = is_first_enough_;
-    }
+  void visit(const States& /*states*/, std::uint32_t depth) { depth_ = depth; }
+  void on_refusal(std::uint32_t /*action*/, const States& /*states*/) const {}
+  void on_outcome(std::uint32_t /*action*/, const States& /*states*/,
+                  const Controls::Outcome& /*outcome*/) const {}
+  void on_note(std::uint32_t note, const States& states) {
+    for (const std::uint32_t task : system_.tasks_of(note)) found_[task].add(states, depth_);
+    has_found_ = true;
   }
 
-  /// By task of the pair of models.
-  [[nodiscard]] const std::vector<MoveFrom>& found() const { return found_; }
-  [[nodiscard]] bool is_compared() const { return is_compared_; }
+  /// By task: the first states with such a move.
+  [[nodiscard]] const std::vector<FirstStates>& found() const { return found_; }
+  [[nodiscard]] bool has_found() const { return has_found_; }
 
  private:
-  const bool is_first_enough_;
-  PairStepper stepper_;
-  std::vector<MoveFrom> found_;
-  bool is_done_ = false;
-  bool is_compared_ = false;
+  const PairSystem& system_;
+  std::vector<FirstStates> found_;
+  std::uint32_t depth_ = 0;
+  bool has_found_ = false;
 };
+
+/// The first move that is decided differently about some tasks, and the path to it.
+struct Divergence {
+  StateSpace::Path path;  ///< with the move, but its end is in the state before
+  std::vector<std::uint32_t> tasks;
+};
+/// By the places of the moves, the shortest first.
+using Divergences = std::map<std::pair<std::size_t, std::vector<std::size_t>>, Divergence>;
+
+/// Of the first shortest path to a state with such a move, the first such move. `system`: of the
+/// first part.
+void add_divergence(std::uint32_t task, const std::vector<DifferenceVisitor>& visitors,
+                    const PairSystem& system, StateSpace& space, Divergences& divergences) {
+  std::vector<const FirstStates*> found;
+  found.reserve(visitors.size());
+  for (const DifferenceVisitor& visitor : visitors) found.push_back(&visitor.found()[task]);
+  // There may be one before it, in a state that was not expanded.
+  if (!space.is_expanded(StateSpace::least_depth(found))) return;
+  StateSpace::Path path = space.path_to(found);
+  const auto& moves = system.moves();
+  const auto differs = [&](const ControlSystem::StateMove& move) {
+    const auto outcome = path.end.try_move(static_cast<std::size_t>(&move - moves.data()));
+    if (!outcome) return false;
+    const auto& tasks = system.tasks_of(outcome->note);
+    return std::binary_search(tasks.begin(), tasks.end(), task);
+  };
+  const auto last = std::find_if(moves.begin(), moves.end(), differs);
+  path.moves.push_back(last->move);
+  path.places.push_back(static_cast<std::size_t>(last - moves.begin()));
+  const std::pair order(path.places.size(), path.places);
+  divergences.try_emplace(order, Divergence{std::move(path), {}})
+      .first->second.tasks.push_back(task);
+}
 
 /// Whether one path comes before another: the shorter one, then the first in the order of moves.
 /// The paths are about different groups, so only variables can be in both.
@@ -167,7 +120,8 @@ class GroupComparer {
         old_assumptions_(old_assumptions),
         new_assumptions_(new_assumptions),
         options_(options),
-        scope_(scope) {}
+        scope_(scope),
+        is_first_enough_(scope.differences == ComparisonScope::Differences::expectable) {}
 
   /// Returns why nothing can be explored, or nothing.
   std::optional<std::string> compare(const GroupPair& groups, GroupComparison& result) {
@@ -178,22 +132,42 @@ class GroupComparer {
     std::optional<std::string> obstacle = models.new_model.find_obstacle();
     if (!obstacle) obstacle = models.old_model.find_obstacle();
     if (obstacle) return obstacle;
-    std::vector<std::uint32_t> first = models.new_model.packed_first();
-    const std::vector<std::uint32_t> old_first = models.old_model.packed_first();
-    first.insert(first.end(), old_first.begin(), old_first.end());
-    BreadthFirst search(first, options_.limits, [&](const ExplorationProgress& progress) {
+    const PairedBits bits(models);
+    ExplorationLimits limits = options_.limits;
+    Stepper::Options of_stepper = share_memory(options_, limits.max_memory);
+    const std::size_t jobs = std::max(1U, options_.jobs);
+    of_stepper.decision_bytes /= 2 * jobs;
+    StateSpace::Systems systems;
+    std::vector<PairSystem*> of_parts;
+    while (systems.size() < jobs) {
+      auto system = std::make_unique<PairSystem>(models, bits, scope_, of_stepper);
+      of_parts.push_back(system.get());
+      systems.push_back(std::move(system));
+    }
+    StateSpace space(std::move(systems), limits, [&](const ExplorationProgress& progress) {
       return !options_.on_progress || options_.on_progress(groups.new_groups, progress);
     });
-    std::deque<DifferenceVisitor> visitors;
-    while (visitors.size() < std::max(1U, options_.jobs)) {
-      visitors.emplace_back(models, scope_, options_.reduce);
+    std::vector<DifferenceVisitor> visitors;
+    for (std::size_t place = 0; place < jobs; ++place) {
+      visitors.emplace_back(*of_parts[place], *space.parts()[place], models.tasks.size());
     }
-    search.run(visitors);
-    if (!search.is_complete()) result.end = search.end();
-    result.states = search.store().size();
-    result.transitions = search.transitions();
-    result.depth = search.expanded_depth();
-    add_differences(models, search, visitors, result);
+    space.run(visitors, [&] {
+      return is_first_enough_ && std::any_of(visitors.begin(), visitors.end(),
+                                             [](const auto& one) { return one.has_found(); });
+    });
+    if (!space.is_complete() && !space.is_decided()) result.end = space.end();
+    result.states = space.states();
+    result.transitions = space.transitions();
+    result.depth = space.expanded_depth();
+    for (const PairSystem* const system : of_parts) {
+      result.is_compared = result.is_compared || system->is_compared();
+    }
+    Divergences divergences;
+    for (std::uint32_t task = 0; task < models.tasks.size(); ++task) {
+      result.tasks.push_back(of_parts.front()->answers().name_of(task));
+      add_divergence(task, visitors, *of_parts.front(), space, divergences);
+    }
+    add_differences(divergences, *of_parts.front(), result);
     result.result = !result.differences.empty() ? Verdict::Result::violated
                     : result.end                ? Verdict::Result::undecided
                                                 : Verdict::Result::proved;
@@ -201,38 +175,19 @@ class GroupComparer {
   }
 
  private:
-  void add_differences(const ModelPair& models, const BreadthFirst& search,
-                       std::deque<DifferenceVisitor>& visitors, GroupComparison& result) const {
-    PairStepper& stepper = visitors.front().system();
-    for (const DifferenceVisitor& visitor : visitors) {
-      result.is_compared = result.is_compared || visitor.is_compared();
-    }
-    std::map<MoveFrom, std::vector<std::uint32_t>> found;  // tasks
-    for (std::uint32_t task = 0; task < models.tasks.size(); ++task) {
-      result.tasks.push_back(stepper.answers().name_of(task));
-      MoveFrom first;
-      for (const DifferenceVisitor& visitor : visitors) {
-        first = std::min(first, visitor.found()[task]);
-      }
-      // There may be one before it, in a state that was not expanded.
-      const bool is_late = search.was_cut_short() && first.state > search.expanded();
-      if (!first.is_none() && !is_late) found[first].push_back(task);
-    }
-    const bool is_first_enough = scope_.differences == ComparisonScope::Differences::expectable;
-    for (const auto& [from, tasks] : found) {
+  void add_differences(Divergences& divergences, PairSystem& system,
+                       GroupComparison& result) const {
+    for (auto& [order, divergence] : divergences) {
       EventDifference& difference = result.differences.emplace_back();
-      difference.moves = search.moves_to(stepper, from.state);
-      stepper.load(search.store().state(from.state));
-      const ModelPair::PairedMove& last = models.moves[from.move];
-      difference.moves.push_back(stepper.move_of(last));
-      stepper.answers().set_with_lines(true);
-      static_cast<void>(stepper.try_move(last));
-      stepper.answers().set_with_lines(false);
-      for (const std::uint32_t task : tasks) {
-        difference.tasks.push_back(describe(stepper.answers(), task));
+      StateSpace::Path& path = divergence.path;
+      difference.moves = path.moves;
+      path.end.load();
+      system.describe(system.moves()[path.places.back()], path.end.environment());
+      for (const std::uint32_t task : divergence.tasks) {
+        difference.tasks.push_back(describe(system.answers(), task));
       }
       write_scripts(result.new_groups, difference);
-      if (is_first_enough) return;
+      if (is_first_enough_) return;
     }
   }
 
@@ -270,6 +225,7 @@ class GroupComparer {
   const Assumptions& new_assumptions_;
   const ExplorationOptions& options_;
   const ComparisonScope& scope_;
+  const bool is_first_enough_;
 };
 
 /// What the old catalog may do by itself: `assumptions` in its numbers, and by default what the
