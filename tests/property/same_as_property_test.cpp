@@ -136,9 +136,11 @@ PairCase generate_pair(std::uint64_t seed) {
 
 CatalogComparison compare_with(
     const PairCase& pair, unsigned jobs,
-    ComparisonScope::Differences differences = ComparisonScope::Differences::all) {
+    ComparisonScope::Differences differences = ComparisonScope::Differences::all,
+    std::uint64_t max_states_of_groups = 0) {
   ExplorationOptions options;
   options.jobs = jobs;
+  options.limits.max_states = max_states_of_groups;
   ComparisonScope scope;
   scope.differences = differences;
   scope.renames = renames_of(pair);
@@ -258,6 +260,28 @@ void check_missing(const CompiledCatalog& catalog, const Assumptions& assumption
   }
 }
 
+/// A search that a limit ends must find what the whole one finds at the depths that it searched.
+void check_limited(const PairCase& pair, const CatalogComparison& whole,
+                   oracle::Statistics& statistics) {
+  const CatalogComparison limited = compare_with(pair, 2, ComparisonScope::Differences::all,
+                                                 std::max<std::uint64_t>(2, whole.states / 3));
+  demand(limited.groups.size() == whole.groups.size(), "a limit takes groups");
+  for (std::size_t place = 0; place < whole.groups.size(); ++place) {
+    const GroupComparison& part = limited.groups[place];
+    std::size_t next = 0;
+    for (const EventDifference& difference : whole.groups[place].differences) {
+      const bool is_searched =
+          (!part.end || part.depth > 0) && difference.moves.size() <= part.depth + 1;
+      const bool is_found = next < part.differences.size() &&
+                            part.differences[next].witness.text == difference.witness.text;
+      if (is_found) ++next;
+      demand(is_found || !is_searched, "a limit hides a difference");
+    }
+    demand(next == part.differences.size(), "a limit adds a difference");
+    if (part.end && next > 0) statistics.count("difference before a limit");
+  }
+}
+
 void compare(const PairCase& pair, oracle::Statistics& statistics) {
   PlainScope scope;
   scope.renames = pair.renames;
@@ -275,6 +299,7 @@ void compare(const PairCase& pair, oracle::Statistics& statistics) {
   demand(found == wanted, found + "--- but the plain search finds " + wanted);
   demand(differs || result.explored == Verdict::Result::proved, "undecided");
   demand(differs || result.is_compared == expected.is_compared, "compared or not");
+  check_limited(pair, result, statistics);
   const CatalogComparison other = compare_with(pair, 3);
   demand(other.result == result.result && moves_of(other) == moves_of(result), "3 jobs, and not 1");
   for (const CatalogComparison* one : {&result, &other}) {
@@ -332,6 +357,7 @@ const oracle::LowerBound lower_bounds[] = {
     {"difference", 200},
     {"difference after two moves", 15},
     {"difference when due", 10},
+    {"difference before a limit", 70},
     {"difference by suitability", 4},
     {"difference by minimum of a requirement", 2},
     {"difference by minimum of a task", 4},
@@ -371,6 +397,39 @@ TEST(SameAs, ACatalogDecidesAsItself) {
     if (result.result == Verdict::Result::proved) ++count;
   }
   EXPECT_GE(count, 2U);
+}
+
+// A robot of real size, which single states were too many for: 404,342 pairs. Counting the turns of
+// the wheels may do with a worse measurement of motion, which shows where all other ways to
+// localize are faulty or do not fit.
+TEST(SameAs, FindsALateDifferenceOfALargeRobotWithFaults) {
+  const std::string old_yaml = test::read_file(CBC_SOURCE_DIR "/catalogs/hospital.yaml");
+  std::string new_yaml = old_yaml;
+  const std::string before = "minimum_performance: 80";
+  const std::size_t behavior = new_yaml.find("- behavior: COUNT_TURNS_OF_WHEELS");
+  ASSERT_NE(behavior, std::string::npos);
+  const std::size_t minimum = new_yaml.find(before, behavior);
+  ASSERT_NE(minimum, std::string::npos);
+  new_yaml.replace(minimum, before.size(), "minimum_performance: 60");
+  PairCase pair;
+  pair.old_catalog = oracle::compile_yaml(old_yaml).value();
+  pair.sample.catalog = oracle::compile_yaml(new_yaml).value();
+  const CompiledCatalog& catalog = pair.sample.catalog;
+  const auto task = [&](const char* name) { return catalog.task_ids[*catalog.find_task(name)]; };
+  pair.assumptions = common_assumptions(pair.old_catalog, catalog);
+  pair.assumptions.start = {{task("DELIVER"), {1}}, {task("CHARGE"), {2}}};
+  pair.assumptions.faults = 1;
+  const CatalogComparison result = compare_with(pair, 2);
+  EXPECT_EQ(result.result, Verdict::Result::violated);
+  EXPECT_FALSE(result.end);
+  EXPECT_EQ(text_of(catalog, moves_of(result)),
+            "  fault MATCH_SCANS\n  start DELIVER 1\n  PLACE = ward\n  NETWORK = false\n"
+            "  LIGHT = dark\n  failure WHEELS_AND_GYROSCOPE\n");
+  EXPECT_NO_THROW(check_scripts(pair, result));
+  pair.sample.catalog = pair.old_catalog;
+  const CatalogComparison same = compare_with(pair, 2);
+  EXPECT_EQ(same.result, Verdict::Result::proved);
+  EXPECT_EQ(same.states, 404'342U);
 }
 
 /// Z needs the last five of eight tasks that start on request only, and the order of its behaviors
