@@ -300,10 +300,9 @@ class Call {
                                        std::chrono::duration<double> elapsed) {
     const double rate =
         elapsed.count() > 0 ? static_cast<double>(so_far.transitions) / elapsed.count() : 0;
-    const std::string more = so_far.controls > 0 ? shorten(so_far.controls) + " controls"
-                                                 : shorten(so_far.waiting) + " waiting";
-    return fmt::format(" (depth {}, {} states, {}, {} moves/s)", so_far.depth,
-                       shorten(so_far.states), more, shorten(static_cast<std::uint64_t>(rate)));
+    return fmt::format(" (depth {}, {} states, {} controls, {} moves/s)", so_far.depth,
+                       shorten(so_far.states), shorten(so_far.controls),
+                       shorten(static_cast<std::uint64_t>(rate)));
   }
 
   /// A number in at most five characters, so that the line fits: "1234", "1234k".

@@ -1,10 +1,10 @@
+#include "verify/engine/state_store.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
-
-#include "verify/engine/breadth_first.h"
 
 namespace cbc::state_store_test {
 namespace {
@@ -20,19 +20,18 @@ TEST(StateStore, KeepsWhatItFoundWhileItGrows) {
   std::uint32_t expected = 0;
   for (std::uint32_t number = 0; number < count; ++number) {
     const std::vector<std::uint32_t> state = state_of(number);
-    ASSERT_EQ(store.insert(state.data(), store.hash(state.data()), number / 2), number);
-    // One of those before is known, and keeps its parent.
+    ASSERT_EQ(store.insert(state.data(), store.hash(state.data())), number);
+    // One of those before is known.
     const std::vector<std::uint32_t> known = state_of(number * 7 / 11);
-    ASSERT_EQ(store.insert(known.data(), store.hash(known.data()), count), number * 7 / 11);
+    ASSERT_EQ(store.insert(known.data(), store.hash(known.data())), number * 7 / 11);
     ASSERT_EQ(store.size(), ++expected);
   }
   for (std::uint32_t number = 0; number < count; ++number) {
     const std::vector<std::uint32_t> state = state_of(number);
-    ASSERT_TRUE(store.contains(state.data(), store.hash(state.data()))) << number;
+    ASSERT_EQ(store.find(state.data(), store.hash(state.data())), number);
     ASSERT_EQ(std::vector<std::uint32_t>(store.state(number), store.state(number) + 3), state);
-    ASSERT_EQ(store.parent(number), number / 2);
     const std::vector<std::uint32_t> other = state_of(number + count);
-    ASSERT_FALSE(store.contains(other.data(), store.hash(other.data()))) << number;
+    ASSERT_FALSE(store.find(other.data(), store.hash(other.data()))) << number;
   }
 }
 
@@ -43,27 +42,27 @@ TEST(StateStore, FullBucketsOverflowIntoTheNext) {
   constexpr std::uint32_t count = 100;
   for (std::uint32_t number = 0; number < count; ++number) {
     const std::vector<std::uint32_t> state = state_of(number);
-    ASSERT_FALSE(store.contains(state.data(), same_hash));
-    ASSERT_EQ(store.insert(state.data(), same_hash, 0), number);
-    ASSERT_EQ(store.insert(state.data(), same_hash, 0), number);
+    ASSERT_FALSE(store.find(state.data(), same_hash));
+    ASSERT_EQ(store.insert(state.data(), same_hash), number);
+    ASSERT_EQ(store.insert(state.data(), same_hash), number);
   }
   EXPECT_EQ(store.size(), count);
   for (std::uint32_t number = 0; number < count; ++number) {
-    EXPECT_TRUE(store.contains(state_of(number).data(), same_hash)) << number;
+    EXPECT_EQ(store.find(state_of(number).data(), same_hash), number);
   }
-  EXPECT_FALSE(store.contains(state_of(count).data(), same_hash));
+  EXPECT_FALSE(store.find(state_of(count).data(), same_hash));
 }
 
-TEST(StateStore, CountsStatesParentsAndIndex) {
+TEST(StateStore, CountsStatesAndIndex) {
   constexpr std::uint32_t count = 65'536 * 3;  // whole segments
   StateStore store(3);
   for (std::uint32_t number = 0; number < count; ++number) {
     const std::vector<std::uint32_t> state = state_of(number);
-    store.insert(state.data(), store.hash(state.data()), 0);
+    store.insert(state.data(), store.hash(state.data()));
   }
-  // 16 bytes of a state and its parent, and 64 of a bucket for 5 to 10 states.
-  EXPECT_GE(store.bytes(), count * std::uint64_t{16} + count / 10 * std::uint64_t{64});
-  EXPECT_LE(store.bytes(), count * std::uint64_t{16} + count / 5 * std::uint64_t{64});
+  // 12 bytes of a state, and 64 of a bucket for 5 to 10 states.
+  EXPECT_GE(store.bytes(), count * std::uint64_t{12} + count / 10 * std::uint64_t{64});
+  EXPECT_LE(store.bytes(), count * std::uint64_t{12} + count / 5 * std::uint64_t{64});
 }
 
 }  // namespace

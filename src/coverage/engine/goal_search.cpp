@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "core/script/runner.h"
+#include "coverage/engine/breadth_first.h"
 #include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/state.h"
 #include "verify/engine/stepper.h"
@@ -240,8 +241,7 @@ class ReplayVisitor {
         race_(model.catalog(), group) {}
 
   [[nodiscard]] Stepper& system() { return stepper_; }
-  [[nodiscard]] bool is_done() const { return false; }
-  void visit(StateStore::Number /*number*/, Successors& /*successors*/) { replay_.load(stepper_); }
+  void visit(StateStore::Number /*number*/) { replay_.load(stepper_); }
   void on_move(StateStore::Number from, const Model::Choice& choice, StateStore::Number to) {
     const Move move = stepper_.move_of(choice);
     if (unwanted_ != nullptr) monitor_.restart(*unwanted_);
@@ -298,16 +298,16 @@ GoalSearchResult search_goals(const CompiledCatalog& catalog, GoalScope scope,
   result.error = model.find_obstacle();
   if (result.error) return result;
   // One state more than may be visited ends the search.
-  BreadthFirst search(model.packed_first(), {options.max_states + 1, options.max_memory, 0},
-                      [&](const ExplorationProgress& progress) {
-                        return !options.on_progress || options.on_progress(shown, progress.states);
+  BreadthFirst search(model.packed_first(), {options.max_states + 1, options.max_memory},
+                      [&](std::uint64_t states) {
+                        return !options.on_progress || options.on_progress(shown, states);
                       });
   ReplayVisitor visitor(model, scope.group, monitor, unwanted, on_move);
-  search.run_in_order(visitor);
+  search.run(visitor);
   result.states = search.store().size();
   result.moves = search.transitions();
   result.is_complete = search.is_complete();
-  if (!result.is_complete) result.end = search.end();
+  result.end = search.end();
   if (result.is_complete) visitor.race().tell(monitor);
   return result;
 }

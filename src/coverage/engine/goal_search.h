@@ -13,8 +13,9 @@
 #include "coverage/engine/goal_monitor.h"
 #include "coverage/engine/goals.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "verify/engine/breadth_first.h"
+#include "verify/engine/exploration_limits.h"
 #include "verify/engine/model.h"
+#include "verify/engine/state_store.h"
 
 namespace cbc {
 

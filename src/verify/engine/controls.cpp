@@ -16,15 +16,21 @@ namespace cbc {
 class Controls::Asked final : public SystemOracle {
  public:
   Asked(Controls& controls, const std::vector<std::uint8_t>& environment, const Place& place)
-      : controls_(controls), environment_(environment), place_(place) {}
+      : controls_(controls), environment_(environment), place_(place) {
+    controls_.known_.clear();
+  }
 
   [[nodiscard]] bool is_in(Set set) override {
     if (set == Diagrams::all || set == Diagrams::empty) return set == Diagrams::all;
+    const bool answer = controls_.system_.sets().contains(set, environment_);
+    // Behaviors often depend on the same, and so do those of two catalogs.
+    std::vector<Set>& known = controls_.known_;
+    if (std::find(known.begin(), known.end(), set) != known.end()) return answer;
+    known.push_back(set);
     if (controls_.at(place_) == 0) {
       controls_.at(place_) = static_cast<Tree>(controls_.questions_.size());
       controls_.questions_.push_back({set, {0, 0}});
     }
-    const bool answer = controls_.system_.sets().contains(set, environment_);
     place_ = {controls_.at(place_), answer ? 1U : 0U, false};
     return answer;
   }

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "verify/engine/breadth_first.h"
 #include "verify/engine/control_system.h"
+#include "verify/engine/state_store.h"
 
 namespace cbc {
 
@@ -28,7 +28,7 @@ class Controls {
   [[nodiscard]] Number size() const { return store_.size(); }
   /// The number of a control.
   [[nodiscard]] Number find(const std::uint32_t* packed) {
-    return store_.insert(packed, store_.hash(packed), 0);
+    return store_.insert(packed, store_.hash(packed));
   }
   /// The same, but nothing if the control is new.
   [[nodiscard]] std::optional<Number> known(const std::uint32_t* packed) const {
@@ -131,6 +131,7 @@ class Controls {
   std::vector<Question> questions_;
   std::vector<Outcome> noted_;
   std::uint64_t regions_ = 0;
+  std::vector<Set> known_;  ///< what was asked in the present environment
   std::vector<std::uint8_t> string_;
 };
 

@@ -328,6 +328,7 @@ Diagrams::Set Diagrams::one_changed(Set a, std::uint32_t number, bool to, std::u
 
 bool Diagrams::contains(Set a, const std::vector<std::uint8_t>& string) const {
   while (!is_leaf(a)) a = string[nodes_[a].bit] != 0 ? nodes_[a].yes : nodes_[a].no;
+  if (a == empty) return false;
   const std::uint32_t tail = tails_.find(string.data() + first_of_tail_);
   return tail < tails_.count() && has_bit(row_of(a), tail);
 }

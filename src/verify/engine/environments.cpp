@@ -77,9 +77,10 @@ void Environments::write_cells(const std::vector<std::uint8_t>& string,
     for (std::uint32_t place = 0; place < bits.width; ++place) {
       code = code * 2 + string[bits.first + place];
     }
-    const auto value = std::find(bits.codes.begin(), bits.codes.end(), code);
-    cells[model_.variables()[variable].cell] =
-        static_cast<std::uint16_t>(value - bits.codes.begin());
+    const Model::Variable& variable_of = model_.variables()[variable];
+    const auto value = std::find(bits.codes.begin(), bits.codes.end(), code) - bits.codes.begin();
+    cells[variable_of.cell] = static_cast<std::uint16_t>(
+        code == bits.code_at_first ? variable_of.initial : static_cast<std::uint32_t>(value));
   }
   const auto write = [&](std::uint32_t first, const std::vector<std::uint32_t>& places) {
     for (std::uint32_t place = 0; place < places.size(); ++place) {

@@ -211,12 +211,7 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& 
     mark = {*properties.front()->after, properties.front()->until};
   }
   StateSpace::Systems systems;
-  std::vector<CatalogSystem*> of_parts;
-  while (systems.size() < jobs) {
-    auto system = std::make_unique<CatalogSystem>(model, of_stepper, mark);
-    of_parts.push_back(system.get());
-    systems.push_back(std::move(system));
-  }
+  const auto of_parts = add_systems<CatalogSystem>(jobs, systems, model, of_stepper, mark);
   StateSpace space(std::move(systems), limits, [&](const ExplorationProgress& progress) {
     return !options.on_progress || options.on_progress(groups, progress);
   });

@@ -9,7 +9,7 @@
 
 #include "core/property/properties.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "verify/engine/breadth_first.h"
+#include "verify/engine/exploration_limits.h"
 #include "verify/engine/model.h"
 #include "verify/engine/outcomes.h"
 #include "verify/engine/property_test.h"

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <map>
-#include <memory>
 #include <tuple>
 #include <utility>
 
@@ -138,12 +137,7 @@ class GroupComparer {
     const std::size_t jobs = std::max(1U, options_.jobs);
     of_stepper.decision_bytes /= 2 * jobs;
     StateSpace::Systems systems;
-    std::vector<PairSystem*> of_parts;
-    while (systems.size() < jobs) {
-      auto system = std::make_unique<PairSystem>(models, bits, scope_, of_stepper);
-      of_parts.push_back(system.get());
-      systems.push_back(std::move(system));
-    }
+    const auto of_parts = add_systems<PairSystem>(jobs, systems, models, bits, scope_, of_stepper);
     StateSpace space(std::move(systems), limits, [&](const ExplorationProgress& progress) {
       return !options_.on_progress || options_.on_progress(groups.new_groups, progress);
     });

@@ -96,7 +96,7 @@ bool StateSpace::look_at_limits() {
     return end_by(ExplorationEnd::time_limit);
   }
   if (!on_progress_) return true;
-  return on_progress_({states_, transitions, states_at_depth_.back(),
+  return on_progress_({states_, transitions,
                        static_cast<std::uint32_t>(states_at_depth_.size() - 1), controls}) ||
          end_by(ExplorationEnd::stopped);
 }

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/support/system.h"
-#include "verify/engine/breadth_first.h"
 #include "verify/engine/control_system.h"
+#include "verify/engine/exploration_limits.h"
 #include "verify/engine/first_states.h"
 #include "verify/engine/model.h"
 #include "verify/engine/state_part.h"
@@ -140,6 +140,19 @@ void StateSpace::run(std::vector<Visitor>& visitors, IsDone&& is_done) {
     end_layer();
   }
   is_complete_ = true;
+}
+
+/// Adds systems that are made alike. Returns them as what they are.
+template <typename System, typename... Arguments>
+std::vector<System*> add_systems(std::size_t count, StateSpace::Systems& systems,
+                                 const Arguments&... arguments) {
+  std::vector<System*> added;
+  while (added.size() < count) {
+    auto system = std::make_unique<System>(arguments...);
+    added.push_back(system.get());
+    systems.push_back(std::move(system));
+  }
+  return added;
 }
 
 }  // namespace cbc
