@@ -181,6 +181,8 @@ constexpr Kind kinds[] = {
     {"situation", change_situation},
     {"situation", change_situation},
     {"initial value", change_initial_value},
+    // More often: most new names are also given as renames, and then little differs.
+    {"name", change_name},
     {"name", change_name},
     {"behavior removed", remove_behavior},
     {"order of behaviors", change_order},
