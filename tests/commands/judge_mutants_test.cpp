@@ -130,7 +130,7 @@ TEST_F(JudgeAll, LetsTheMissionsLookAtAllFirst) {
 }
 
 TEST_F(JudgeAll, GivesEachAShareOfTheTime) {
-  constexpr int looks = 600;
+  constexpr int looks = 500;
   ASSERT_GT(looks_of(long_one) * 6, looks) << "the long ones alone take longer";
   const std::vector<MutantVerdict> whole = judge({});
   const std::vector<MutantVerdict> verdicts = judge_within(looks);

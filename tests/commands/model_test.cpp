@@ -105,10 +105,12 @@ TEST(Model, RefusesMoreTasksThanACellHolds) {
   EXPECT_TRUE(Model(catalog, {GroupId(0)}, default_assumptions(catalog)).find_obstacle());
 }
 
-/// What is found in the first move stays true when a limit comes right after it.
+/// What is found in the first moves stays true when a limit comes right after them.
 TEST(Model, KeepsADifferenceThatALimitFollows) {
-  const CompiledCatalog before = compile_text("behaviors: [{behavior: OLD, task: T}]\n");
-  const CompiledCatalog after = compile_text("behaviors: [{behavior: NEW, task: T}]\n");
+  const std::string common =
+      ", {behavior: B, task: U}]\nexclusivity_constraints: [{mutually_exclusive: [T, U]}]\n";
+  const CompiledCatalog before = compile_text("behaviors: [{behavior: OLD, task: T}" + common);
+  const CompiledCatalog after = compile_text("behaviors: [{behavior: NEW, task: T}" + common);
   ExplorationOptions options;
   int looks = 0;
   // Before the pair of groups, and before its first state.
