@@ -298,14 +298,6 @@ void Stepper::stay() {
   joined_set_ = 0;
 }
 
-bool Stepper::would_start(std::uint32_t task, Model::Rank ranks) {
-  now_ = before_;
-  MoveTrace* const trace = std::exchange(trace_, nullptr);
-  const bool accepted = start(task, ranks, 0, false);
-  trace_ = trace;
-  return accepted;
-}
-
 // Events.
 
 bool Stepper::start(std::uint32_t task, Model::Rank ranks, Model::Rank rank, bool is_reactive) {

@@ -120,10 +120,6 @@ class Stepper {
   /// The cells of the state after the move.
   [[nodiscard]] const std::uint16_t* cells_after() const { return now_.cells.data(); }
 
-  /// Whether a start of the task in the loaded state would be accepted. `ranks`: priorities whose
-  /// rank is below it are at most that of the start (Model::ranks_up_to).
-  [[nodiscard]] bool would_start(std::uint32_t task, Model::Rank ranks);
-
   /// Records what moves do from now on; null: nothing.
   void set_trace(MoveTrace* trace) { trace_ = trace; }
 
