@@ -14,6 +14,7 @@
   row(verify) \
   row(coverage) \
   row(sweep) \
+  row(tune) \
   row(graph) \
   row(rename) \
   row(schema) \

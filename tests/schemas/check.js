@@ -109,6 +109,7 @@ const least = {
   state: 40,
   sweep: 10,
   together: 3,
+  tune: 20,
   verify: 15,
   'what-if': 50,
 };

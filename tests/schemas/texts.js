@@ -19,6 +19,7 @@ const schemaOf = {
   'cbc.mutants/1': 'mutants',
   'cbc.sweep/1': 'sweep',
   'cbc.together/1': 'together',
+  'cbc.tune/1': 'tune',
   'cbc.verify/1': 'verify',
   'cbc.what-if/1': 'what-if',
 };

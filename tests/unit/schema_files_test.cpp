@@ -17,6 +17,7 @@
 #include "solve/report/what_if_report.h"
 #include "support/read_file.h"
 #include "sweep/report/sweep_report.h"
+#include "tune/report/tune_report.h"
 #include "verify/report/verify_report.h"
 
 namespace cbc::schema_files_test {
@@ -39,6 +40,7 @@ constexpr File files[] = {{"catalog-dump", catalog_schema},
                           {"state", state_schema},
                           {"sweep", sweep_schema},
                           {"together", together_schema},
+                          {"tune", tune_schema},
                           {"verify", verify_schema},
                           {"what-if", what_if_schema}};
 

@@ -82,6 +82,7 @@ class Reader {
     reading.catalog = std::move(catalog_);
     reading.undefined_tasks = std::move(undefined_);
     reading.names = std::move(names_);
+    reading.numbers = std::move(numbers_);
     return reading;
   }
 
@@ -168,6 +169,7 @@ class Reader {
     if (const Node* behaviors = fields.find("behaviors")) {
       Fields defaults(mappings_of(*behaviors, "behaviors"), shape::behavior_defaults, reporter_);
       default_suitability_ = read_value([&] { return read_suitability(defaults); });
+      if (default_suitability_) numbers_.back().is_default = true;
       default_package_ = read_value([&] { return read_package(defaults); });
       defaults.report_unknown(yaml::UnknownKeys::ignored);
     }
@@ -228,7 +230,10 @@ class Reader {
   Percent read_minimum(const Fields& fields) {
     const Node* node = fields.find("minimum_performance");
     if (node == nullptr) return {};
-    return {yaml::read_percent(*node, "minimum_performance", reporter_).value_or(0), node->range};
+    const Millionths minimum =
+        yaml::read_percent(*node, "minimum_performance", reporter_).value_or(0);
+    numbers_.push_back({NumberPlace::Kind::minimum_performance, false, minimum, node->range});
+    return {minimum, node->range};
   }
 
   void read_task(const Node& node) {
@@ -358,7 +363,9 @@ class Reader {
       const Node* node = fields.find(key);
       if (node == nullptr) continue;
       // A suitability that could not be read must exclude nothing.
-      return Percent{yaml::read_percent(*node, key, reporter_).value_or(one_million), node->range};
+      const Millionths value = yaml::read_percent(*node, key, reporter_).value_or(one_million);
+      numbers_.push_back({NumberPlace::Kind::suitability, false, value, node->range});
+      return Percent{value, node->range};
     }
     return std::nullopt;
   }
@@ -703,6 +710,7 @@ class Reader {
   std::optional<Percent> default_suitability_;
   TaskAttributes attributes_;
   std::vector<NamePlace> names_;
+  std::vector<NumberPlace> numbers_;
   SituationReader situation_;
   std::vector<TaskEntry> task_entries_;
   Catalog catalog_;

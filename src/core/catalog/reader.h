@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,6 +24,20 @@ struct UndefinedTask {
   std::size_t list = 0;                   ///< place in Catalog::exclusivity, if one has it
 };
 
+/// A place where a suitability or a minimum performance stands.
+struct NumberPlace {
+  enum class Kind : std::uint8_t { suitability, minimum_performance };
+  Kind kind = Kind::suitability;
+  bool is_default = false;  ///< a suitability among the default values
+  Millionths value = 0;
+  Range range;  ///< of the scalar
+};
+
+/// The key of the catalog.
+[[nodiscard]] constexpr std::string_view name_of(NumberPlace::Kind kind) {
+  return kind == NumberPlace::Kind::suitability ? "suitability" : "minimum_performance";
+}
+
 /// What could be made of a catalog.
 struct CatalogReading {
   /// As far as it was understood.
@@ -31,6 +46,9 @@ struct CatalogReading {
   std::vector<UndefinedTask> undefined_tasks;
   /// Every place where a name stands, whatever became of the entry that has it.
   std::vector<NamePlace> names;
+  /// Every suitability and minimum performance, whether something has it or another one counts. An
+  /// alias repeats its place.
+  std::vector<NumberPlace> numbers;
   /// Whether all of it was understood, though it may break rules about its meaning.
   bool is_complete = false;
   /// Whether all entries and names were understood. Values may be missing, and then exclude

@@ -115,6 +115,8 @@ class RunListener {
   virtual ~RunListener() = default;
   /// `step` is the scripted one, or null. The record and the state are those after the event.
   virtual void on_event(const EventRecord& record, const Step* step, const State& state) = 0;
+  /// Of each search: see EventListener.
+  virtual void on_search(const Problem& /*problem*/, const Assignment* /*solution*/) {}
   /// Before the record of an event that took a search: see EventListener.
   virtual void on_decision(const EventRecord& /*record*/, const Circumstances& /*circumstances*/,
                            const Assignment* /*solution*/) {}
@@ -189,6 +191,9 @@ class Runner final : private EventListener {
 
  private:
   void on_event(const EventRecord& record) override;
+  void on_search(const Problem& problem, const Assignment* solution) override {
+    listener_.on_search(problem, solution);
+  }
   void on_decision(const EventRecord& record, const Circumstances& circumstances,
                    const Assignment* solution) override {
     listener_.on_decision(record, circumstances, solution);

@@ -404,6 +404,7 @@ const Problem* Coordinator::search(const Trigger& trigger) {
     search_.result.solutions += result.solutions;
     search_.result.nodes += result.nodes;
     search_.result.propagations += result.propagations;
+    listener_.on_search(problem, has_solution(result.status) ? &solution_ : nullptr);
     if (has_solution(result.status)) {
       note_domain_sizes(problem);
       return &problem;

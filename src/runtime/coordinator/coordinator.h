@@ -42,6 +42,9 @@ class EventListener {
  public:
   virtual ~EventListener() = default;
   virtual void on_event(const EventRecord& record) = 0;
+  /// A problem was searched, one of several of an event that escalates or in which a behavior fails.
+  /// `solution`: null if none was found. Both are valid until the next search.
+  virtual void on_search(const Problem& /*problem*/, const Assignment* /*solution*/) {}
   /// An answer was found, or that there is none (null), of which on_event will tell. The state is
   /// still the one before the answer, but for what is active.
   virtual void on_decision(const EventRecord& /*record*/, const Circumstances& /*circumstances*/,

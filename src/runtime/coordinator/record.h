@@ -185,6 +185,8 @@ struct Change {
   ChangeCause cause = ChangeCause::requested;
   std::optional<std::int32_t> priority;
   bool success = true;
+
+  friend bool operator==(const Change&, const Change&) = default;
 };
 
 struct StoppedTask {

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/catalog/catalog.h"
+#include "core/catalog/numbers.h"
+#include "core/catalog/reader.h"
+#include "tune/engine/recording.h"
+
+namespace cbc {
+
+/// Values of a number, both ends included.
+struct Interval {
+  Millionths low = 0;
+  Millionths high = 0;
+
+  /// The value that is nearest to `value`, and at least `margin` away from ends beyond which others
+  /// lie; the middle where there is no room for that.
+  [[nodiscard]] Millionths nearest(Millionths value, Millionths margin) const;
+};
+
+/// The values of a number with which all events are as they are now, and what comes beyond them.
+struct Tolerance {
+  Interval values;
+  std::optional<RunDifference> below;  ///< empty: the lower end is 0
+  std::optional<RunDifference> above;  ///< empty: the upper end is 100 %
+
+  /// How far the number may be wrong; empty: it changes nothing.
+  [[nodiscard]] std::optional<Millionths> distance(Millionths value) const;
+};
+
+/// The values of a number with which all expectations hold.
+struct Repair {
+  Interval values;
+  Millionths nearest = 0;
+  std::vector<std::vector<std::uint32_t>> changed;  ///< by mission: lines, see differing_lines
+};
+struct Repairs {
+  std::vector<Repair> intervals;  ///< ascending
+  bool is_complete = true;        ///< all values were looked at
+};
+
+/// Two numbers with which all expectations hold, if both change. Numbers are places in the list.
+struct PairRepair {
+  std::size_t first = 0;
+  Millionths first_value = 0;
+  std::size_t second = 0;
+  Interval values;  ///< of the second one
+  Millionths nearest = 0;
+  Millionths change = 0;  ///< of both
+};
+
+/// Changes the numbers of a catalog, one at a time, and runs its missions. May be asked by several
+/// threads at once.
+class Tuner {
+ public:
+  /// `catalog` has no errors. It, the numbers and the missions must outlive the tuner.
+  Tuner(const Catalog& catalog, const std::vector<TunableNumber>& numbers, Missions missions,
+        Millionths margin);
+
+  /// The missions with the numbers as they are.
+  [[nodiscard]] const Recording& present() const { return present_; }
+
+  [[nodiscard]] Tolerance tolerance(std::size_t number) const;
+  /// Where expectations fail.
+  [[nodiscard]] Repairs repairs(std::size_t number) const;
+  /// Pairs with a value of the first number at which another piece of it begins: for each second
+  /// number the one with the smallest changes.
+  [[nodiscard]] std::vector<PairRepair> repairs_of_pairs(std::size_t first) const;
+
+ private:
+  using Visit = std::function<bool(const Recording& recording, Interval piece)>;
+  struct Start {
+    Catalog catalog;
+    const Recording& recording;
+  };
+  bool visit_pieces(Start start, std::size_t number, bool upwards, Until until,
+                    const Visit& visit) const;
+  [[nodiscard]] Repairs find_repairs(const Start& start, std::size_t number) const;
+  [[nodiscard]] Recording run(const Catalog& catalog, Until until) const;
+
+  const Catalog& catalog_;
+  const std::vector<TunableNumber>& numbers_;
+  const Missions missions_;
+  const Millionths margin_;
+  const Recording present_;
+  Missions failing_first_;
+  Recording first_failure_;  ///< as far as the first expectation that fails
+};
+
+}  // namespace cbc

@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include "core/report/table.h"
+#include "core/support/wording.h"
+#include "page/table_page.h"
+#include "runtime/base/text.h"
+#include "tune/report/tune_report.h"
+
+// A number is a bar from 0 to 100: what it may be without a change, where it is, and the values
+// that repair expectations.
+
+namespace cbc {
+namespace {
+
+constexpr double scale = 10'000;  // a percent is a unit of the picture
+
+std::string bar_of(const Interval& values, std::string_view look) {
+  return fmt::format(R"(<rect class="{}" x="{}" width="{}" height="8"/>)", look, values.low / scale,
+                     (values.high - values.low) / scale + 0.2);
+}
+
+std::string picture_of(const TuneResult& result, std::size_t number) {
+  const Millionths value = result.numbers[number].value;
+  std::string svg =
+      "<svg viewBox=\"-1 0 102 8\" role=\"img\"><rect class=\"scale\" width=\"100\" height=\"8\"/>";
+  svg += bar_of(result.tuned[number].tolerance.values, "same");
+  for (const Repair& repair : result.tuned[number].repairs.intervals) {
+    svg += bar_of(repair.values, "repair");
+  }
+  return svg +
+         fmt::format(R"(<circle class="value" cx="{}" cy="4" r="1.5"/></svg>)", value / scale);
+}
+
+std::string row_of(const TuneResult& result, std::size_t number) {
+  const TunableNumber& of = result.numbers[number];
+  const Tolerance& tolerance = result.tuned[number].tolerance;
+  std::string beyond;
+  for (const auto& [label, difference] :
+       {std::pair("below", &tolerance.below), std::pair("above", &tolerance.above)}) {
+    if (!*difference) continue;
+    beyond +=
+        fmt::format("<p>{}: {}</p>", label, join(describe(result, **difference), "<br>", xml_text));
+  }
+  return fmt::format(
+      "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+      of.range ? std::to_string(of.line()) : "", xml_text(describe(of, result.source)),
+      format_decimal(of.value, 4), picture_of(result, number), describe(tolerance.values), beyond);
+}
+
+std::string failures_of(const TuneResult& result) {
+  if (result.present.failures.empty()) return {};
+  std::string html = "<h2>Expectations that fail</h2>\n<ul>\n";
+  for (const auto& failure : result.present.failures) {
+    html += fmt::format("<li>{}</li>\n", xml_text(describe(result, failure)));
+  }
+  html += fmt::format("</ul>\n<p>{}</p>\n", describe_repairs(result));
+  Table table(plain_style(),
+              {{"line"}, {"number"}, {"value"}, {"nearest"}, {"of"}, {"also changes"}});
+  const std::vector<FoundRepair> found = nearest_repairs(result);
+  for (const auto& [number, repair, change] : found) {
+    const TunableNumber& of = result.numbers[number];
+    table.add({of.line(), describe(of, result.source), format_decimal(of.value, 4),
+               format_decimal(repair->nearest, 4), describe(repair->values),
+               describe_changed(result, *repair)});
+  }
+  return found.empty() ? html : html + table.html("repairs");
+}
+
+}  // namespace
+
+std::string tune_to_html(const TuneResult& result) {
+  std::string html = failures_of(result);
+  html +=
+      "<h2>Tolerances</h2>\n<p>The most fragile first. A bar is what the number may be while all "
+      "missions go as they do now; the dot is its value, and values that repair expectations are "
+      "framed.</p>\n<table class=\"tune\">\n<tr><th scope=\"col\">line</th><th scope=\"col\">number"
+      "</th><th scope=\"col\">value</th><th scope=\"col\">0 to 100</th><th scope=\"col\">the same "
+      "from</th><th scope=\"col\">beyond</th></tr>\n";
+  for (const std::size_t number : fragile_first(result)) html += row_of(result, number);
+  html += "</table>\n";
+  for (const std::string& line : describe_unaffected(result)) {
+    html += fmt::format("<p>{}</p>\n", xml_text(line));
+  }
+  return table_page("Numbers of " + result.source.file, html);
+}
+
+}  // namespace cbc

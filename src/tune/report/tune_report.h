@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/diagnostic/diagnostic.h"
+#include "tune/engine/tuner.h"
+
+// The reports of `cbc tune`.
+
+namespace cbc {
+
+struct TunedNumber {
+  Tolerance tolerance;
+  Repairs repairs;
+};
+
+struct TuneResult {
+  const Catalog& source;
+  const CompiledCatalog& catalog;  ///< of the source
+  const std::vector<TunableNumber>& numbers;
+  const Recording& present;
+  std::vector<std::string> missions;             ///< their files
+  std::vector<TunedNumber> tuned;                ///< by number
+  std::optional<std::vector<PairRepair>> pairs;  ///< if they were tried: the smallest changes first
+  std::optional<Millionths> fail_under;
+
+  [[nodiscard]] bool is_fragile(std::size_t number) const {
+    const auto distance = tuned[number].tolerance.distance(numbers[number].value);
+    return fail_under && distance && *distance < *fail_under;
+  }
+};
+
+/// A number, by its place, and one of its repairs.
+struct FoundRepair {
+  std::size_t number = 0;
+  const Repair* repair = nullptr;
+  Millionths change = 0;
+};
+/// The nearest repair of each number that has one, the smallest change first.
+[[nodiscard]] std::vector<FoundRepair> nearest_repairs(const TuneResult& result);
+
+// Parts of reports in words.
+
+/// "85.0001 to 100"
+[[nodiscard]] std::string describe(const Interval& values);
+/// The difference, with its place; then the expectation that fails, if there is one.
+[[nodiscard]] std::vector<std::string> describe(const TuneResult& result,
+                                                const RunDifference& difference);
+/// "mission.yaml:4:3: expected ..."
+[[nodiscard]] std::string describe(const TuneResult& result, const Recording::Failure& failure);
+/// Whether there are repairs, and whether that is all.
+[[nodiscard]] std::string describe_repairs(const TuneResult& result);
+/// "mission.yaml:3, 8; other.yaml:12": what else a repair changes; "nothing else" if nothing.
+[[nodiscard]] std::string describe_changed(const TuneResult& result, const Repair& repair);
+/// The numbers that may have any value, and those that nothing has.
+[[nodiscard]] std::vector<std::string> describe_unaffected(const TuneResult& result);
+/// The numbers with a bound, the most fragile first.
+[[nodiscard]] std::vector<std::size_t> fragile_first(const TuneResult& result);
+
+struct TuneFormat {
+  std::string_view name;
+  std::string (*write)(const TuneResult& result, const Style& style, std::size_t columns);
+};
+/// The first one is the default.
+[[nodiscard]] std::span<const TuneFormat> tune_formats();
+
+[[nodiscard]] std::string tune_to_json(const TuneResult& result);
+[[nodiscard]] std::string tune_schema();
+/// A page with each number as a bar.
+[[nodiscard]] std::string tune_to_html(const TuneResult& result);
+
+}  // namespace cbc

@@ -1,0 +1,139 @@
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/report/explanation_words.h"
+#include "core/report/words.h"
+#include "core/support/wording.h"
+#include "runtime/base/text.h"
+#include "tune/report/tune_report.h"
+
+namespace cbc {
+namespace {
+
+std::string lines_of(const std::vector<std::uint32_t>& lines) {
+  return join(lines, ", ", [](std::uint32_t line) { return std::to_string(line); });
+}
+
+/// What is decided in place of what, "in the words of solve".
+std::string describe_instead(const TuneResult& result, const RunDifference& difference) {
+  if (!difference.before) return "it happens";
+  if (!difference.now) return "it does not happen";
+  const auto& [before, now] = std::pair(*difference.before, *difference.now);
+  const auto what = [](const EventRecord& of) {
+    return std::tuple(of.time, of.origin, of.verb, of.task, of.behavior);
+  };
+  if (what(before) != what(now)) return "in place of " + place_of(result.catalog, before);
+  std::vector<std::string> parts;
+  if (before.outcome != now.outcome) {
+    parts.push_back(in_place_of(name_of(now.outcome), name_of(before.outcome)));
+  }
+  const auto name = [&](BehaviorId behavior) {
+    return behavior == none ? std::string() : behavior_name(result.catalog, behavior);
+  };
+  for (const Move& move : difference.moves) {
+    parts.push_back(task_name(result.catalog, move.task) + ": " +
+                    in_place_of(name(move.now), name(move.before)));
+  }
+  return parts.empty() ? "other changes on the way to the same" : join(parts, ", ");
+}
+
+}  // namespace
+
+std::string describe(const Interval& values) {
+  const std::string low = format_decimal(values.low, 4);
+  return values.low == values.high ? low : low + " to " + format_decimal(values.high, 4);
+}
+
+std::vector<std::string> describe(const TuneResult& result, const RunDifference& difference) {
+  std::string place = printable(result.missions[difference.mission]);
+  if (difference.line > 0) place += fmt::format(":{}", difference.line);
+  const EventRecord& event = difference.now ? *difference.now : *difference.before;
+  std::vector<std::string> lines = {fmt::format(
+      "{}: {}: {}", place, place_of(result.catalog, event), describe_instead(result, difference))};
+  if (difference.failure) lines.push_back("then " + describe(result, *difference.failure));
+  return lines;
+}
+
+std::string describe(const TuneResult& result, const Recording::Failure& failure) {
+  return fmt::format(
+      "{}: {}",
+      format_place(printable(result.missions[failure.mission]), failure.expectation.range.begin),
+      failure.expectation.message);
+}
+
+std::vector<FoundRepair> nearest_repairs(const TuneResult& result) {
+  std::vector<FoundRepair> found;
+  for (std::size_t number = 0; number < result.numbers.size(); ++number) {
+    const Millionths value = result.numbers[number].value;
+    const auto change = [&](const Repair& repair) {
+      return std::max(value, repair.nearest) - std::min(value, repair.nearest);
+    };
+    const auto& intervals = result.tuned[number].repairs.intervals;
+    const auto nearest =
+        std::min_element(intervals.begin(), intervals.end(),
+                         [&](const Repair& a, const Repair& b) { return change(a) < change(b); });
+    if (nearest != intervals.end()) found.push_back({number, &*nearest, change(*nearest)});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const FoundRepair& a, const FoundRepair& b) { return a.change < b.change; });
+  return found;
+}
+
+std::string describe_repairs(const TuneResult& result) {
+  const auto is_searched = [](const TunedNumber& one) { return one.repairs.is_complete; };
+  const bool is_complete = std::all_of(result.tuned.begin(), result.tuned.end(), is_searched);
+  const auto has_any = [](const TunedNumber& one) { return !one.repairs.intervals.empty(); };
+  if (std::any_of(result.tuned.begin(), result.tuned.end(), has_any)) {
+    return "each of these numbers alone makes all expectations hold";
+  }
+  return is_complete
+             ? "no single one of these numbers makes all expectations hold, whatever its value"
+             : "none was found, but the numbers were not searched to the end";
+}
+
+std::string describe_changed(const TuneResult& result, const Repair& repair) {
+  std::vector<std::string> parts;
+  for (std::size_t mission = 0; mission < repair.changed.size(); ++mission) {
+    if (repair.changed[mission].empty()) continue;
+    parts.push_back(fmt::format("{}:{}", printable(result.missions[mission]),
+                                lines_of(repair.changed[mission])));
+  }
+  return join(parts, "; ");
+}
+
+std::vector<std::string> describe_unaffected(const TuneResult& result) {
+  std::size_t unaffected = 0;
+  std::vector<std::uint32_t> unused;
+  for (std::size_t number = 0; number < result.numbers.size(); ++number) {
+    const TunableNumber& of = result.numbers[number];
+    if (of.uses.empty()) {
+      unused.push_back(of.line());
+    } else if (!result.tuned[number].tolerance.distance(of.value)) {
+      ++unaffected;
+    }
+  }
+  std::vector<std::string> lines;
+  if (unaffected > 0) {
+    lines.push_back(
+        fmt::format("{} may have any value from 0 to 100", quantity(unaffected, "number")));
+  }
+  if (!unused.empty()) lines.push_back("nothing has the number in line " + lines_of(unused));
+  return lines;
+}
+
+std::vector<std::size_t> fragile_first(const TuneResult& result) {
+  std::vector<std::pair<Millionths, std::size_t>> found;
+  for (std::size_t number = 0; number < result.numbers.size(); ++number) {
+    const auto distance = result.tuned[number].tolerance.distance(result.numbers[number].value);
+    if (distance) found.emplace_back(*distance, number);
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<std::size_t> numbers;
+  for (const auto& [distance, number] : found) numbers.push_back(number);
+  return numbers;
+}
+
+}  // namespace cbc

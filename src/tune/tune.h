@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cbc::cli {
+
+/// The options of `cbc tune`.
+struct TuneOptions {
+  std::vector<std::string> paths;
+  std::string format = "text";
+  std::optional<std::string> html;
+  std::vector<std::string> only;  ///< BEHAVIOR:TASK; empty: all numbers
+  std::string fail_under;         ///< percent; empty: whatever they are
+  std::string margin = "0";       ///< percent
+  bool pairs = false;
+  bool write = false;
+  std::optional<std::uint64_t> jobs;
+};
+
+/// Tunes a catalog, and writes the report. Returns the exit status.
+[[nodiscard]] int tune(const TuneOptions& options);
+
+}  // namespace cbc::cli

@@ -1,0 +1,58 @@
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "core/command_line/command_line.h"
+#include "tune/report/tune_report.h"
+#include "tune/tune.h"
+
+namespace cbc::cli {
+namespace {
+
+constexpr const char* tune_examples =
+    "  cbc tune robot.yaml missions/                  how wrong each number may be\n"
+    "  cbc tune robot.yaml missions/ --fail-under 2   for CI: none may be off by less than 2\n"
+    "  cbc tune robot.yaml missions/ --write          repair what is expected, with one number\n";
+
+constexpr const char* tune_footer =
+    "Exit status: 0 success, 1 an expectation fails, or --fail-under was missed, 2 the input or "
+    "the "
+    "usage is wrong, 3 an internal error (please report it).\n"
+    "\n"
+    "Read more: man cbc-tune";
+
+}  // namespace
+
+void add_tune_command(Program& program) {
+  const auto options = std::make_shared<TuneOptions>();
+  Command& command = program.add_command(
+      "tune",
+      "Reports how wrong each suitability and minimum performance may be before a decision of a "
+      "mission changes, and which number makes expectations hold.",
+      {{"[OPTION...] [CATALOG] SCRIPT..."}, tune_examples, tune_footer});
+  command.argument("CATALOG SCRIPT", options->paths, input("...", ValueKind::catalog_or_script),
+                   "The catalog, unless the scripts name it; then event scripts, folders of them, "
+                   "or - for standard input");
+  command.format_option(options->format, names_in(tune_formats()));
+  command.option("--html", options->html, further_output("FILE"),
+                 "Also write a page with each number as a bar");
+  command.option("--only", options->only, name_of("BEHAVIOR:TASK", ValueKind::text),
+                 "Only the numbers of this behavior for this task");
+  command.option("--fail-under", options->fail_under, percent(),
+                 "Exit with 1 if a number may be wrong by less than this");
+  command.option("-j,--jobs", options->jobs, whole_number("N", 1),
+                 "Look at N numbers at once (default: all processors)");
+  command.add_confinement();
+
+  command.group("Repairs of expectations that fail");
+  command.option("--margin", options->margin, percent(),
+                 "Stay so far away from values with which one fails");
+  command.flag("--pairs", options->pairs, "If no number is enough, try two");
+  command.flag("--write", options->write, "Change the number in the catalog that changes least")
+      .not_with({"--pairs"}, "it changes one number")
+      .only_with_values("--format", {"text"});
+  command.action([options] { return tune(*options); });
+}
+
+}  // namespace cbc::cli
