@@ -25,7 +25,7 @@ namespace {
 
 class Compiler {
  public:
-  explicit Compiler(const Catalog& catalog) : catalog_(catalog) {}
+  Compiler(const Catalog& catalog, KnownCosts& costs) : catalog_(catalog), costs_(costs) {}
 
   CompiledCatalog run() && {
     add_names();
@@ -226,14 +226,21 @@ class Compiler {
   const Catalog& catalog_;
   GrowingCatalog out_;
   std::unordered_map<std::string_view, TextId> text_ids_;  ///< except names
-  KnownCosts costs_;
+  KnownCosts& costs_;
   std::vector<const Requirement*> requirement_row_;  ///< of a behavior; kept for its memory
   std::vector<const Behavior*> by_id_;
 };
 
 }  // namespace
 
-CompiledCatalog compile(const Catalog& catalog) { return Compiler(catalog).run(); }
+CompiledCatalog compile(const Catalog& catalog) {
+  KnownCosts costs;
+  return compile(catalog, costs);
+}
+
+CompiledCatalog compile(const Catalog& catalog, KnownCosts& costs) {
+  return Compiler(catalog, costs).run();
+}
 
 std::string search_space(const std::vector<std::uint32_t>& domain_sizes) {
   Natural product;

@@ -16,6 +16,8 @@ namespace cbc {
 /// Works out everything that does not depend on the situation. `catalog` is one that read_catalog
 /// accepted, so its requirements are not cyclic.
 [[nodiscard]] CompiledCatalog compile(const Catalog& catalog);
+/// The same for one of many catalogs that have most of their numbers in common.
+[[nodiscard]] CompiledCatalog compile(const Catalog& catalog, KnownCosts& costs);
 
 /// Number of constraints, counted as in the paper.
 struct ConstraintCount {

@@ -5,13 +5,13 @@
 // the values for which an answer stays the best are an interval, apart from 0. A minimum
 // performance is in no product, and has an interval in any case.
 //
-// Where a suitability stands for several pairs, an assignment may become possible at some value, be
-// the best, and be overtaken by the former answer, which has the number more often. Then the answer
-// at both ends of an interval says nothing of what is between. It does if the answer is also the
-// best with the suitability of the lower end among all assignments that are possible at the higher
-// one: what beats it in between would beat it at one of the ends. With minimum performances that
-// are lowered in proportion, all of these are possible at the lower end, so that is one more
-// search.
+// Where a suitability stands for several pairs, another assignment may become possible at some
+// value, be the best, and be overtaken by the former answer, which has the number more often: then
+// the answer at both ends of an interval says nothing of what is between. Only assignments that
+// have the number less often, but not never, can do that. There is none if all of these that are
+// possible at the higher end have a lower product at the lower end, which takes a few searches; and
+// equal products are decided alike between the suitabilities of other behaviors of the same tasks,
+// as the canonical order depends on who suits a task better.
 //
 // A decision is what the solver was asked, whatever led to it, so each is looked at once for all
 // missions, and no mission runs while a bound is searched. To compute bounds from products would
@@ -20,82 +20,35 @@
 #include "tune/engine/decision_range.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <set>
-#include <utility>
 #include <vector>
 
 #include "core/compile/compile.h"
-#include "runtime/solver/solver.h"
+#include "tune/engine/changed_solver.h"
 
 namespace cbc {
 namespace {
-
-const std::vector<std::uint32_t> no_ranks;
-
-/// The solver of a catalog that differs in numbers from the recorded one, so that the values of a
-/// task may be in another order.
-class Variant {
- public:
-  Variant(const CompiledCatalog& recorded, const Catalog& catalog)
-      : recorded_(recorded), catalog_(compile(catalog)), solver_(catalog_, {}, no_ranks) {
-    for (TaskId task(0); task < recorded.tasks.size(); ++task) {
-      const auto values = catalog_.values[task];
-      for (const Value& value : recorded.values[task]) {
-        const auto found = std::find_if(values.begin(), values.end(), [&](const Value& one) {
-          return one.behavior == value.behavior;
-        });
-        places_.push_back(static_cast<std::uint32_t>(found - values.begin()));
-      }
-    }
-  }
-
-  /// Whether the answer is the recorded one.
-  [[nodiscard]] bool keeps(const SolvedProblem& decision) {
-    const TaskId first = catalog_.group_tasks[decision.problem.group];
-    translate(decision.problem, first);
-    if (!has_solution(solver_.solve(problem_, solution_).status)) return !decision.answer;
-    if (!decision.answer) return false;
-    for (LocalTask task(0); task < solution_.size(); ++task) {
-      if (solution_[task] != place(first + task, (*decision.answer)[task])) return false;
-    }
-    return true;
-  }
-
- private:
-  [[nodiscard]] std::uint32_t place(TaskId task, std::uint32_t recorded) const {
-    return recorded == none ? none : places_[recorded_.values.begin[task] + recorded];
-  }
-  void translate(const Problem& from, TaskId first) {
-    problem_ = from;
-    std::fill(problem_.domains.begin(), problem_.domains.end(), 0);
-    for (LocalTask task(0); task < from.present.size(); ++task) {
-      problem_.present[task] = place(first + task, from.present[task]);
-      const std::uint32_t word = catalog_.words[first + task] - catalog_.words[first];
-      for (std::uint32_t index = 0; index < catalog_.values[first + task].size(); ++index) {
-        if ((from.domains[word + index / 64] >> (index % 64) & 1U) == 0) continue;
-        const std::uint32_t there = place(first + task, index);
-        problem_.domains[word + there / 64] |= std::uint64_t{1} << (there % 64);
-      }
-    }
-  }
-
-  const CompiledCatalog& recorded_;
-  const CompiledCatalog catalog_;
-  Solver solver_;
-  std::vector<std::uint32_t> places_;  ///< by value of the recorded catalog: its place in the task
-  Problem problem_;
-  Assignment solution_;
-};
 
 class RangeSearch {
  public:
   RangeSearch(const Catalog& catalog, const TunableNumber& number, const Recording& recording)
       : catalog_(catalog), number_(number), recorded_(recording.catalog) {
-    for (const TunableNumber::Use& use : number.uses) tasks_.insert(recorded_.task_ids[use.task]);
+    std::set<std::pair<TaskId, std::uint32_t>> pairs;
+    for (const TunableNumber::Use& use : number.uses) {
+      tasks_.insert(recorded_.task_ids[use.task]);
+      pairs.emplace(recorded_.task_ids[use.task], use.behavior);
+    }
     for (const SolvedProblem& decision : recording.decisions) {
       if (count_open_tasks(decision.problem) > 0) concerned_.push_back(&decision);
+    }
+    for (const TaskId task : tasks_) {
+      for (const Value& value : recorded_.values[task]) {
+        const std::uint32_t behavior = recorded_.behaviors[value.behavior].catalog_index;
+        if (!pairs.contains({task, behavior})) others_.insert(value.suitability);
+      }
     }
   }
 
@@ -140,40 +93,36 @@ class RangeSearch {
                        [](const CompiledTask& task) { return task.has_performance_rules != 0; });
   }
 
-  [[nodiscard]] Variant& at(Millionths value) {
-    if (at_.second == nullptr || at_.first != value) {
-      Catalog changed = catalog_;
-      set_number(changed, number_, value);
-      at_ = {value, std::make_unique<Variant>(recorded_, changed)};
+  /// Most decisions are asked about the same values.
+  [[nodiscard]] ChangedSolver& at(Millionths value) {
+    constexpr std::size_t most_kept = 64;
+    if (solvers_.size() >= most_kept && !solvers_.contains(value)) solvers_.clear();
+    std::unique_ptr<ChangedSolver>& solver = solvers_[value];
+    if (solver == nullptr) {
+      set_number(catalog_, number_, value);
+      solver = std::make_unique<ChangedSolver>(recorded_, catalog_, number_, costs_);
     }
-    return *at_.second;
-  }
-
-  /// The catalog with the lower value, in which all is possible that is with the higher one: a
-  /// performance has the number once for each task at most.
-  [[nodiscard]] Variant& relaxed(Millionths low, Millionths high) {
-    if (relaxed_.second == nullptr || relaxed_.first != std::pair(low, high)) {
-      Catalog changed = catalog_;
-      set_number(changed, number_, low);
-      const auto lower = [&](Millionths& minimum) {
-        for (std::size_t count = 0; count < tasks_.size() && minimum > 0; ++count) {
-          minimum = static_cast<Millionths>(std::uint64_t{minimum} * low / high);
-        }
-      };
-      for (Task& task : changed.tasks) lower(task.minimum_performance);
-      for (Behavior& behavior : changed.behaviors) {
-        for (Requirement& one : behavior.requirements) lower(one.minimum_performance);
-      }
-      relaxed_ = {{low, high}, std::make_unique<Variant>(recorded_, changed)};
-    }
-    return *relaxed_.second;
+    return *solver;
   }
 
   /// Whether a decision is known to stay up to `end`, as it does at `value`.
   [[nodiscard]] bool stays_until(const SolvedProblem& decision, Millionths value, Millionths end) {
     if (!at(end).keeps(decision)) return false;
-    const auto [low, high] = std::minmax(value, end);
-    return high - low == 1 || !needs_proof(decision) || relaxed(low, high).keeps(decision);
+    if (!needs_proof(decision)) return true;
+    Millionths low = std::min(value, end);
+    const Millionths high = std::max(value, end);
+    for (auto other = others_.lower_bound(low); other != others_.end() && *other <= high; ++other) {
+      if (*other > low && !stays_between(decision, low, *other - 1)) return false;
+      if (!at(*other).keeps(decision)) return false;
+      low = *other + 1;
+    }
+    return low > high || stays_between(decision, low, high);
+  }
+
+  /// The same where no other behavior has a suitability from `low` to `high`.
+  [[nodiscard]] bool stays_between(const SolvedProblem& decision, Millionths low, Millionths high) {
+    return at(low).keeps(decision) && at(high).keeps(decision) &&
+           (high - low <= 1 || !at(high).may_be_beaten(decision, low));
   }
 
   /// How far a decision stays, towards `end`. A proof may fail over a long way although all is
@@ -191,14 +140,14 @@ class RangeSearch {
     return value;
   }
 
-  const Catalog& catalog_;
+  Catalog catalog_;
+  KnownCosts costs_;
   const TunableNumber& number_;
   const CompiledCatalog& recorded_;
-  std::set<TaskId> tasks_;  ///< that have the number
+  std::set<TaskId> tasks_;       ///< that have the number
+  std::set<Millionths> others_;  ///< suitabilities for these tasks
   std::vector<const SolvedProblem*> concerned_;
-  // The last ones, as one decision after the other is asked about the same values.
-  std::pair<Millionths, std::unique_ptr<Variant>> at_;
-  std::pair<std::pair<Millionths, Millionths>, std::unique_ptr<Variant>> relaxed_;
+  std::map<Millionths, std::unique_ptr<ChangedSolver>> solvers_;
 };
 
 }  // namespace

@@ -74,7 +74,7 @@ Tolerance Tuner::tolerance(std::size_t number) const {
 Repairs Tuner::repairs(std::size_t number) const {
   if (present_.failures.empty()) return {};
   Repairs repairs = find_repairs({catalog_, first_failure_}, number);
-  for (Repair& repair : repairs.intervals) {
+  for (NumberRepair& repair : repairs.intervals) {
     Catalog changed = catalog_;
     set_number(changed, numbers_[number], repair.nearest);
     const Recording recording = run(changed, Until::end);
@@ -95,13 +95,13 @@ std::vector<PairRepair> Tuner::repairs_of_pairs(std::size_t first) const {
           const Millionths value = upwards ? piece.low : piece.high;
           Catalog changed = catalog_;
           set_number(changed, numbers_[first], value);
-          for (std::size_t second = 0; second < numbers_.size(); ++second) {
-            if (second == first) continue;
-            for (const Repair& repair : find_repairs({changed, recording}, second).intervals) {
+          for (std::size_t other = 0; other < numbers_.size(); ++other) {
+            if (other == first) continue;
+            for (const NumberRepair& repair : find_repairs({changed, recording}, other).intervals) {
               const Millionths change = apart(numbers_[first].value, value) +
-                                        apart(numbers_[second].value, repair.nearest);
-              if (best[second] && best[second]->change <= change) continue;
-              best[second] = {first, value, second, repair.values, repair.nearest, change};
+                                        apart(numbers_[other].value, repair.nearest);
+              if (best[other] && best[other]->change <= change) continue;
+              best[other] = {first, value, other, repair.values, repair.nearest, change};
             }
           }
           return true;
@@ -153,7 +153,7 @@ Repairs Tuner::find_repairs(const Start& start, std::size_t number) const {
       repairs.intervals.back().values.high = piece.high;
     }
   }
-  for (Repair& repair : repairs.intervals) {
+  for (NumberRepair& repair : repairs.intervals) {
     repair.nearest = repair.values.nearest(numbers_[number].value, margin_);
   }
   return repairs;

@@ -33,14 +33,14 @@ struct Tolerance {
 };
 
 /// The values of a number with which all expectations hold.
-struct Repair {
+struct NumberRepair {
   Interval values;
   Millionths nearest = 0;
   std::vector<std::vector<std::uint32_t>> changed;  ///< by mission: lines, see differing_lines
 };
 struct Repairs {
-  std::vector<Repair> intervals;  ///< ascending
-  bool is_complete = true;        ///< all values were looked at
+  std::vector<NumberRepair> intervals;  ///< ascending
+  bool is_complete = true;              ///< all values were looked at
 };
 
 /// Two numbers with which all expectations hold, if both change. Numbers are places in the list.

@@ -24,7 +24,7 @@ std::string picture_of(const TuneResult& result, std::size_t number) {
   std::string svg =
       "<svg viewBox=\"-1 0 102 8\" role=\"img\"><rect class=\"scale\" width=\"100\" height=\"8\"/>";
   svg += bar_of(result.tuned[number].tolerance.values, "same");
-  for (const Repair& repair : result.tuned[number].repairs.intervals) {
+  for (const NumberRepair& repair : result.tuned[number].repairs.intervals) {
     svg += bar_of(repair.values, "repair");
   }
   return svg +

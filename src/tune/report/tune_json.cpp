@@ -73,8 +73,8 @@ constexpr auto difference =
                   &RunDifference::failure));
 
 constexpr auto repair = object(
-    "repair", "Values with which all expectations hold.", part(&Repair::values, interval),
-    value_member("nearest", "The nearest of them, with the margin.", &Repair::nearest),
+    "repair", "Values with which all expectations hold.", part(&NumberRepair::values, interval),
+    value_member("nearest", "The nearest of them, with the margin.", &NumberRepair::nearest),
     member("changed",
            list(object(
                "changed", "",
@@ -84,7 +84,7 @@ constexpr auto repair = object(
                    "lines", lines.at_least(1), "Of the script, ascending.",
                    [](const auto& of) -> const auto& { return of.second; }))),
            "The events that are different with the nearest value.",
-           [](const Repair& of, const TuneResult& result) {
+           [](const NumberRepair& of, const TuneResult& result) {
              return [&](const auto& put) {
                for (std::size_t place = 0; place < of.changed.size(); ++place) {
                  if (of.changed[place].empty()) continue;

@@ -39,7 +39,7 @@ struct TuneResult {
 /// A number, by its place, and one of its repairs.
 struct FoundRepair {
   std::size_t number = 0;
-  const Repair* repair = nullptr;
+  const NumberRepair* repair = nullptr;
   Millionths change = 0;
 };
 /// The nearest repair of each number that has one, the smallest change first.
@@ -57,7 +57,7 @@ struct FoundRepair {
 /// Whether there are repairs, and whether that is all.
 [[nodiscard]] std::string describe_repairs(const TuneResult& result);
 /// "mission.yaml:3, 8; other.yaml:12": what else a repair changes; "nothing else" if nothing.
-[[nodiscard]] std::string describe_changed(const TuneResult& result, const Repair& repair);
+[[nodiscard]] std::string describe_changed(const TuneResult& result, const NumberRepair& repair);
 /// The numbers that may have any value, and those that nothing has.
 [[nodiscard]] std::vector<std::string> describe_unaffected(const TuneResult& result);
 /// The numbers with a bound, the most fragile first.

@@ -42,7 +42,7 @@ void add_repairs(const TuneResult& result, Text& text) {
                format_decimal(of.value, 4),
                {format_decimal(repair->nearest, 4), text.style().good},
                join(result.tuned[number].repairs.intervals, "; ",
-                    [](const Repair& one) { return describe(one.values); }),
+                    [](const NumberRepair& one) { return describe(one.values); }),
                describe_changed(result, *repair)});
   }
   if (!found.empty()) text.add(table.text());

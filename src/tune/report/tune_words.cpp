@@ -68,13 +68,13 @@ std::vector<FoundRepair> nearest_repairs(const TuneResult& result) {
   std::vector<FoundRepair> found;
   for (std::size_t number = 0; number < result.numbers.size(); ++number) {
     const Millionths value = result.numbers[number].value;
-    const auto change = [&](const Repair& repair) {
+    const auto change = [&](const NumberRepair& repair) {
       return std::max(value, repair.nearest) - std::min(value, repair.nearest);
     };
     const auto& intervals = result.tuned[number].repairs.intervals;
-    const auto nearest =
-        std::min_element(intervals.begin(), intervals.end(),
-                         [&](const Repair& a, const Repair& b) { return change(a) < change(b); });
+    const auto nearest = std::min_element(
+        intervals.begin(), intervals.end(),
+        [&](const NumberRepair& a, const NumberRepair& b) { return change(a) < change(b); });
     if (nearest != intervals.end()) found.push_back({number, &*nearest, change(*nearest)});
   }
   std::stable_sort(found.begin(), found.end(),
@@ -94,7 +94,7 @@ std::string describe_repairs(const TuneResult& result) {
              : "none was found, but the numbers were not searched to the end";
 }
 
-std::string describe_changed(const TuneResult& result, const Repair& repair) {
+std::string describe_changed(const TuneResult& result, const NumberRepair& repair) {
   std::vector<std::string> parts;
   for (std::size_t mission = 0; mission < repair.changed.size(); ++mission) {
     if (repair.changed[mission].empty()) continue;
