@@ -116,6 +116,18 @@ void run_all(const std::vector<Mission>& missions, std::size_t jobs, SolveReport
   report.end();
 }
 
+/// What to run next where an expectation fails.
+void point_to_tuning(const std::vector<Mission>& missions, const SolveOptions& options) {
+  const CheckedCatalog& source = *missions.front().source;
+  const bool have_one_catalog =
+      std::all_of(missions.begin(), missions.end(),
+                  [&](const Mission& mission) { return mission.source.get() == &source; });
+  const bool is_text = options.format == "text" && !options.stream.replay;
+  if (!is_text || !have_one_catalog || source.text == nullptr) return;
+  fmt::print("which number of the catalog would have to be what: cbc tune {}\n",
+             join(options.paths, " ", printable));
+}
+
 int run_missions(const std::vector<Mission>& missions, const SolveOptions& options,
                  SolveReport& report) {
   const auto run = [&](const Mission& mission, SolveReport& report_of_run) {
@@ -134,12 +146,15 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
     return result;
   };
   int status = exit_ok;
+  bool has_failed = false;
   const auto after_run = [&](const Mission& mission, const RunResult& result) {
+    has_failed |= result.failed > 0;
     const std::string reason = describe_end(result, coordinator_options(options, *mission.catalog));
     if (!reason.empty()) complain_of_run(mission, result, reason);
     status = std::max(status, status_of(result));
   };
   run_all(missions, thread_count(options.jobs), report, run, after_run);
+  if (has_failed) point_to_tuning(missions, options);
   return status;
 }
 

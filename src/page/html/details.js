@@ -22,7 +22,9 @@ function sentenceElements(run, number) {
 
 function failureElement(run, failure) {
   const place = `${run.data.script}:${failure.line}`;
-  return html('p', 'alarm', `failed expectation: ${failure.message} (${place})`);
+  const line = html('p', 'alarm', `failed expectation: ${failure.message} (${place})`);
+  line.append(html('span', 'why', ' \u2013 cbc tune says which number of the catalog would have to be what'));
+  return line;
 }
 
 /** A row of P, T, S, behavior (and who replaced it, or whom it replaced), task, cause. */

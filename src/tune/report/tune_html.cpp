@@ -39,7 +39,7 @@ std::string row_of(const TuneResult& result, std::size_t number) {
        {std::pair("below", &tolerance.below), std::pair("above", &tolerance.above)}) {
     if (!*difference) continue;
     beyond +=
-        fmt::format("<p>{}: {}</p>", label, join(describe(result, **difference), "<br>", xml_text));
+        fmt::format("<p>{}: {}</p>", label, xml_text(describe(result, **difference)));
   }
   return fmt::format(
       "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",

@@ -65,10 +65,6 @@ constexpr auto difference =
            member("event", integer(1), "Its number, counting all events.", &RunDifference::event),
            member(
                "instead", instead, "", [](const RunDifference& of) -> const auto& { return of; }),
-           member("message", text, "The same in words, for people.",
-                  [](const RunDifference& of, const TuneResult& result) {
-                    return describe(result, of).front();
-                  }),
            member("fails", nullable(failure), "The first expectation that then fails.",
                   &RunDifference::failure));
 

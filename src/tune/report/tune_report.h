@@ -49,9 +49,8 @@ struct FoundRepair {
 
 /// "85.0001 to 100"
 [[nodiscard]] std::string describe(const Interval& values);
-/// The difference, with its place; then the expectation that fails, if there is one.
-[[nodiscard]] std::vector<std::string> describe(const TuneResult& result,
-                                                const RunDifference& difference);
+/// The difference, with its place, and the expectation that then fails, if there is one.
+[[nodiscard]] std::string describe(const TuneResult& result, const RunDifference& difference);
 /// "mission.yaml:4:3: expected ..."
 [[nodiscard]] std::string describe(const TuneResult& result, const Recording::Failure& failure);
 /// Whether there are repairs, and whether that is all.

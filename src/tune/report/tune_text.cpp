@@ -106,10 +106,7 @@ void add_tolerances(const TuneResult& result, Text& text) {
                         color_of(result, number, text.style())));
     for (const auto& [label, beyond] :
          {std::pair("below", &tolerance.below), std::pair("above", &tolerance.above)}) {
-      if (!*beyond) continue;
-      const std::vector<std::string> lines = describe(result, **beyond);
-      text.line("        {}: {}", label, lines.front());
-      if (lines.size() > 1) text.line("          {}", lines.back());
+      if (*beyond) text.line("        {}: {}", label, describe(result, **beyond));
     }
   }
   for (const std::string& line : describe_unaffected(result)) text.line("  {}", line);
@@ -161,7 +158,7 @@ std::string tune_to_junit(const TuneResult& result) {
         fmt::format("{} may be {}, less than {} away from a bound", format_decimal(of.value, 4),
                     describe(tolerance.values), format_decimal(*result.fail_under, 4));
     for (const auto* const beyond : {&tolerance.below, &tolerance.above}) {
-      if (*beyond) test.details += join(describe(result, **beyond), "\n") + "\n";
+      if (*beyond) test.details += describe(result, **beyond) + "\n";
     }
   }
   return tests_to_text(junit_format, "cbc tune", suites);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -33,11 +34,15 @@ std::string describe_instead(const TuneResult& result, const RunDifference& diff
   const auto name = [&](BehaviorId behavior) {
     return behavior == none ? std::string() : behavior_name(result.catalog, behavior);
   };
-  for (const Move& move : difference.moves) {
+  constexpr std::size_t most_shown = 3;
+  const std::size_t shown = std::min(difference.moves.size(), most_shown);
+  for (const Move& move : std::span(difference.moves).first(shown)) {
     parts.push_back(task_name(result.catalog, move.task) + ": " +
                     in_place_of(name(move.now), name(move.before)));
   }
-  return parts.empty() ? "other changes on the way to the same" : join(parts, ", ");
+  if (parts.empty()) return "other changes on the way to the same";
+  const std::size_t others = difference.moves.size() - shown;
+  return join(parts, ", ") + (others > 0 ? fmt::format(" and {} more", others) : "");
 }
 
 }  // namespace
@@ -47,14 +52,20 @@ std::string describe(const Interval& values) {
   return values.low == values.high ? low : low + " to " + format_decimal(values.high, 4);
 }
 
-std::vector<std::string> describe(const TuneResult& result, const RunDifference& difference) {
-  std::string place = printable(result.missions[difference.mission]);
-  if (difference.line > 0) place += fmt::format(":{}", difference.line);
+std::string describe(const TuneResult& result, const RunDifference& difference) {
+  const auto place = [&](std::size_t mission, std::uint32_t line) {
+    const std::string file = printable(result.missions[mission]);
+    return line == 0 ? file : fmt::format("{}:{}", file, line);
+  };
   const EventRecord& event = difference.now ? *difference.now : *difference.before;
-  std::vector<std::string> lines = {fmt::format(
-      "{}: {}: {}", place, place_of(result.catalog, event), describe_instead(result, difference))};
-  if (difference.failure) lines.push_back("then " + describe(result, *difference.failure));
-  return lines;
+  std::string text =
+      fmt::format("{}: {}: {}", place(difference.mission, difference.line),
+                  place_of(result.catalog, event), describe_instead(result, difference));
+  if (const auto& failure = difference.failure) {
+    text += fmt::format("; then the expectation in {} fails",
+                        place(failure->mission, failure->expectation.range.begin.line));
+  }
+  return text;
 }
 
 std::string describe(const TuneResult& result, const Recording::Failure& failure) {
