@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -96,6 +97,10 @@ void try_pairs(const Tuner& tuner, const TuneOptions& options, TuneResult& resul
   for (const auto& of_number : found) pairs.insert(pairs.end(), of_number.begin(), of_number.end());
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const PairRepair& a, const PairRepair& b) { return a.change < b.change; });
+  std::set<std::pair<std::size_t, std::size_t>> known;
+  std::erase_if(pairs, [&](const PairRepair& pair) {
+    return !known.insert(std::minmax(pair.first, pair.second)).second;
+  });
 }
 
 /// Writes the repair that changes least.

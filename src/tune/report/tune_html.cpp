@@ -55,7 +55,7 @@ std::string failures_of(const TuneResult& result) {
   }
   html += fmt::format("</ul>\n<p>{}</p>\n", describe_repairs(result));
   Table table(plain_style(),
-              {{"line"}, {"number"}, {"value"}, {"nearest"}, {"of"}, {"also changes"}});
+              {{"line"}, {"number"}, {"value"}, {"nearest"}, {"of"}, {"changes"}});
   const std::vector<FoundRepair> found = nearest_repairs(result);
   for (const auto& [number, repair, change] : found) {
     const TunableNumber& of = result.numbers[number];

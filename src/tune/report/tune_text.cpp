@@ -32,7 +32,7 @@ void add_repairs(const TuneResult& result, Text& text) {
                number_column("value"),
                number_column("nearest"),
                {"of"},
-               {"also changes"}},
+               {"changes"}},
               {.columns = text.columns()});
   const std::vector<FoundRepair> found = nearest_repairs(result);
   for (const auto& [number, repair, change] : found) {
