@@ -12,8 +12,8 @@ namespace {
 
 constexpr const char* tune_examples =
     "  cbc tune robot.yaml missions/                  how wrong each number may be\n"
-    "  cbc tune robot.yaml missions/ --fail-under 2   for CI: none may be off by less than 2\n"
-    "  cbc tune robot.yaml missions/ --write          repair what is expected, with one number\n";
+    "  cbc tune robot.yaml missions/ --fail-under 2   by at least 2 points? for CI\n"
+    "  cbc tune robot.yaml missions/ --write          repair, with one number\n";
 
 constexpr const char* tune_footer =
     "Exit status: 0 success, 1 an expectation fails, or --fail-under was missed, 2 the input or "

@@ -114,7 +114,7 @@ int write_repair(const TuneResult& result, const CheckedCatalog& source, const M
   const Millionths value = found.front().repair->nearest;
   const int status = write_number(source, number, value, missions);
   if (status != exit_ok) return status;
-  fmt::print("{}:{}: {} is now {}, and all expectations hold\n", printable(result.source.file),
+  fmt::print("{}:{}: {} is now {}; all expectations hold\n", printable(result.source.file),
              number.line(), describe(number, result.source), format_decimal(value, 4));
   return exit_ok;
 }

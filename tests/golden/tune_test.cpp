@@ -53,7 +53,7 @@ TEST_F(Tune, WritesTheNumberThatChangesLeastAndNothingElse) {
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_TRUE(
-      result.out.ends_with("robot.yaml:6: suitability of SLOW for DRIVE is now 62.9999, and "
+      result.out.ends_with("robot.yaml:6: suitability of SLOW for DRIVE is now 62.9999; "
                            "all expectations hold\n"))
       << result.out;
   EXPECT_EQ(folder.read("robot.yaml"), with(catalog, "80.50", "62.9999"));
