@@ -314,14 +314,15 @@ void run_case(std::uint64_t seed, Results& results) {
 }
 
 const LowerBound lower_bounds[] = {
-    {"bound of a tolerance", 500},
+    {"bound of a tolerance", 1000},
     {"bound of a tolerance of several pairs", 100},
-    {"bound of a tolerance of a minimum", 50},
-    {"no bound", 500},
-    {"expectation that fails", 100},
-    {"repair", 50},
-    {"several intervals", 1},
-    {"pair", 50},
+    {"bound of a tolerance of a minimum", 150},
+    {"no bound", 1000},
+    {"expectation that fails", 200},
+    {"repair", 90},
+    {"repair of several pairs", 10},
+    {"repair of a minimum", 10},
+    {"pair", 500},
 };
 
 TEST(Tune, TolerancesAndRepairsAreThoseOfTheOracle) {

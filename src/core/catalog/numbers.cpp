@@ -9,34 +9,39 @@
 namespace cbc {
 
 std::vector<TunableNumber> find_numbers(const CatalogReading& reading) {
-  std::map<Position, TunableNumber> by_place;
+  using Kind = TunableNumber::Kind;
+  std::map<std::pair<Position, Kind>, TunableNumber> by_place;
   for (const NumberPlace& place : reading.numbers) {
-    by_place[place.range.begin] = {place.kind, place.is_default, place.value, place.range, {}};
+    by_place[{place.range.begin, place.kind}] = {
+        place.kind, place.is_default, place.value, place.range, {}};
   }
   TunableNumber unwritten;
   unwritten.is_default = true;
   unwritten.value = one_million;
   const Catalog& catalog = reading.catalog;
+  const auto minimum_at = [&](const Range& range) {
+    const auto found = by_place.find({range.begin, Kind::minimum_performance});
+    return found == by_place.end() || range == Range{} ? nullptr : &found->second;
+  };
   for (std::uint32_t behavior = 0; behavior < catalog.behaviors.size(); ++behavior) {
     const Behavior& of = catalog.behaviors[behavior];
     for (std::uint32_t entry = 0; entry < of.performs.size(); ++entry) {
       const auto& range = of.performs[entry].suitability_range;
-      TunableNumber& number = range ? by_place.at(range->begin) : unwritten;
+      TunableNumber& number = range ? by_place.at({range->begin, Kind::suitability}) : unwritten;
       number.uses.push_back({behavior, entry, of.performs[entry].task});
     }
     for (std::uint32_t entry = 0; entry < of.requirements.size(); ++entry) {
       const Requirement& requirement = of.requirements[entry];
-      if (requirement.minimum_performance_range == Range{}) continue;
-      by_place.at(requirement.minimum_performance_range.begin)
-          .uses.push_back({behavior, entry, requirement.task});
+      TunableNumber* const number = minimum_at(requirement.minimum_performance_range);
+      if (number != nullptr) number->uses.push_back({behavior, entry, requirement.task});
     }
   }
   for (TaskIndex task = 0; task < catalog.tasks.size(); ++task) {
-    const Range& range = catalog.tasks[task].minimum_performance_range;
-    if (range != Range{}) by_place.at(range.begin).uses.push_back({none, 0, task});
+    TunableNumber* const number = minimum_at(catalog.tasks[task].minimum_performance_range);
+    if (number != nullptr) number->uses.push_back({none, 0, task});
   }
   std::vector<TunableNumber> numbers;
-  for (auto& [begin, number] : by_place) numbers.push_back(std::move(number));
+  for (auto& [place, number] : by_place) numbers.push_back(std::move(number));
   if (!unwritten.uses.empty()) numbers.push_back(std::move(unwritten));
   return numbers;
 }

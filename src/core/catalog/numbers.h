@@ -13,7 +13,8 @@
 namespace cbc {
 
 /// A number that somebody estimated: a place of the file with a suitability or a minimum
-/// performance. It may stand for several of them, or for none.
+/// performance. It may stand for several of them, or for none; an alias that is one here and the
+/// other there makes two numbers of its place.
 struct TunableNumber {
   using Kind = NumberPlace::Kind;
   /// What has the number: the pair of a behavior and a task that it performs or requires, or a

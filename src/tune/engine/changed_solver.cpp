@@ -61,7 +61,6 @@ void ChangedSolver::translate(const SolvedProblem& decision) {
 bool ChangedSolver::may_be_beaten(const SolvedProblem& decision, Millionths lower) {
   translate(decision);
   tasks_.clear();
-  count_ = 0;
   searches_ = 0;
   for (LocalTask task(0); task < answer_.size(); ++task) {
     const auto values = catalog_.values[first_ + task];
@@ -70,7 +69,6 @@ bool ChangedSolver::may_be_beaten(const SolvedProblem& decision, Millionths lowe
         values[answer_[task]].suitability == 0) {
       return false;
     }
-    if (has_number(first_ + task, answer_[task])) ++count_;
     const std::uint32_t word = catalog_.words[first_ + task] - catalog_.words[first_];
     for (std::uint32_t index = 0; index < values.size(); ++index) {
       if ((problem_.domains[word + index / 64] >> (index % 64) & 1U) == 0) continue;
@@ -79,16 +77,23 @@ bool ChangedSolver::may_be_beaten(const SolvedProblem& decision, Millionths lowe
       break;
     }
   }
+  // An assignment that has the number less often lacks it for one of the tasks of the answer.
+  const auto has_it = [&](LocalTask task) { return has_number(first_ + task, answer_[task]); };
+  count_ = static_cast<std::size_t>(std::stable_partition(tasks_.begin(), tasks_.end(), has_it) -
+                                    tasks_.begin());
   return may_be_beaten(lower, 0, 0);
 }
 
-/// Of those that have the number in `chosen` of the tasks before `next`, as the domains say.
+/// Of those that have the number for `chosen` of the tasks before `next`, as the domains say.
 bool ChangedSolver::may_be_beaten(Millionths lower, std::size_t next, std::size_t chosen) {
-  constexpr std::size_t most_searches = 1000;
-  if (++searches_ > most_searches) return true;
-  if (!has_solution(solver_.solve(problem_, solution_).status) || is_worse(lower, chosen))
-    return false;
-  if (next == tasks_.size()) return chosen > 0;
+  constexpr std::size_t most_searches = 200;
+  const bool has_answer = chosen == next && next < count_;  // which is the best of them
+  if (!has_answer) {
+    if (++searches_ > most_searches) return true;
+    if (!has_solution(solver_.solve(problem_, solution_).status)) return false;
+    if (is_worse(lower, chosen)) return false;
+    if (next == tasks_.size()) return chosen > 0;
+  }
   const LocalTask task = tasks_[next];
   const std::uint32_t first_word = catalog_.words[first_ + task] - catalog_.words[first_];
   const std::uint32_t end_word = catalog_.words[first_ + task + 1] - catalog_.words[first_];

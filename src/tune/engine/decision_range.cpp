@@ -59,8 +59,13 @@ class RangeSearch {
       value = 1;
     }
     Millionths end = upwards ? one_million : is_suitability && value > 0 ? 1 : 0;
-    for (const SolvedProblem* const decision : concerned_) {
-      if (end != value && !stays_until(*decision, value, end)) end = bisect(*decision, value, end);
+    for (const bool proves : {false, true}) {  // a proof over a short way is quick
+      proves_ = proves;
+      for (const SolvedProblem* const decision : concerned_) {
+        if (proves && !needs_proof(*decision)) continue;
+        if (end == value || stays_until(*decision, value, end)) continue;
+        end = bisect(*decision, value, end);
+      }
     }
     return is_suitability && !upwards && end == 1 && all_stay(0) ? 0 : end;
   }
@@ -108,7 +113,7 @@ class RangeSearch {
   /// Whether a decision is known to stay up to `end`, as it does at `value`.
   [[nodiscard]] bool stays_until(const SolvedProblem& decision, Millionths value, Millionths end) {
     if (!at(end).keeps(decision)) return false;
-    if (!needs_proof(decision)) return true;
+    if (!proves_) return true;
     Millionths low = std::min(value, end);
     const Millionths high = std::max(value, end);
     for (auto other = others_.lower_bound(low); other != others_.end() && *other <= high; ++other) {
@@ -147,6 +152,7 @@ class RangeSearch {
   std::set<TaskId> tasks_;       ///< that have the number
   std::set<Millionths> others_;  ///< suitabilities for these tasks
   std::vector<const SolvedProblem*> concerned_;
+  bool proves_ = false;  ///< that nothing is between
   std::map<Millionths, std::unique_ptr<ChangedSolver>> solvers_;
 };
 

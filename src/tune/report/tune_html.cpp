@@ -38,13 +38,12 @@ std::string row_of(const TuneResult& result, std::size_t number) {
   for (const auto& [label, difference] :
        {std::pair("below", &tolerance.below), std::pair("above", &tolerance.above)}) {
     if (!*difference) continue;
-    beyond +=
-        fmt::format("<p>{}: {}</p>", label, xml_text(describe(result, **difference)));
+    beyond += fmt::format("<p>{}: {}</p>", label, xml_text(describe(result, **difference)));
   }
   return fmt::format(
       "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-      of.range ? std::to_string(of.line()) : "", xml_text(describe(of, result.source)),
-      format_decimal(of.value, 4), picture_of(result, number), describe(tolerance.values), beyond);
+      line_of(of), xml_text(describe(of, result.source)), format_decimal(of.value, 4),
+      picture_of(result, number), describe(tolerance.values), beyond);
 }
 
 std::string failures_of(const TuneResult& result) {
@@ -54,16 +53,7 @@ std::string failures_of(const TuneResult& result) {
     html += fmt::format("<li>{}</li>\n", xml_text(describe(result, failure)));
   }
   html += fmt::format("</ul>\n<p>{}</p>\n", describe_repairs(result));
-  Table table(plain_style(),
-              {{"line"}, {"number"}, {"value"}, {"nearest"}, {"of"}, {"changes"}});
-  const std::vector<FoundRepair> found = nearest_repairs(result);
-  for (const auto& [number, repair, change] : found) {
-    const TunableNumber& of = result.numbers[number];
-    table.add({of.line(), describe(of, result.source), format_decimal(of.value, 4),
-               format_decimal(repair->nearest, 4), describe(repair->values),
-               describe_changed(result, *repair)});
-  }
-  return found.empty() ? html : html + table.html("repairs");
+  return has_repairs(result) ? html + repairs_table(result, plain_style()).html("repairs") : html;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
+#include "core/report/table.h"
 #include "tune/engine/tuner.h"
 
 // The reports of `cbc tune`.
@@ -53,10 +54,14 @@ struct FoundRepair {
 [[nodiscard]] std::string describe(const TuneResult& result, const RunDifference& difference);
 /// "mission.yaml:4:3: expected ..."
 [[nodiscard]] std::string describe(const TuneResult& result, const Recording::Failure& failure);
-/// Whether there are repairs, and whether that is all.
+/// Its line; "-" if it stands nowhere.
+[[nodiscard]] std::string line_of(const TunableNumber& number);
+/// Whether there are repairs, of one number or of two, and whether that is all.
+[[nodiscard]] bool has_repairs(const TuneResult& result);
 [[nodiscard]] std::string describe_repairs(const TuneResult& result);
-/// "mission.yaml:3, 8; other.yaml:12": what else a repair changes; "nothing else" if nothing.
-[[nodiscard]] std::string describe_changed(const TuneResult& result, const NumberRepair& repair);
+/// Of each number with repairs, or else the pairs, with what else they change.
+[[nodiscard]] Table repairs_table(const TuneResult& result, const Style& style,
+                                  std::size_t columns = 0);
 /// The numbers that may have any value, and those that nothing has.
 [[nodiscard]] std::vector<std::string> describe_unaffected(const TuneResult& result);
 /// The numbers with a bound, the most fragile first.

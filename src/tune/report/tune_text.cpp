@@ -15,10 +15,6 @@
 namespace cbc {
 namespace {
 
-std::string line_of(const TunableNumber& number) {
-  return number.range ? std::to_string(number.line()) : "-";
-}
-
 void add_repairs(const TuneResult& result, Text& text) {
   if (result.present.failures.empty()) return;
   text.line("");
@@ -26,54 +22,7 @@ void add_repairs(const TuneResult& result, Text& text) {
     text.painted(text.style().bad, describe(result, failure));
   }
   text.title(describe_repairs(result));
-  Table table(text.style(),
-              {number_column("line", 4),
-               {"number"},
-               number_column("value"),
-               number_column("nearest"),
-               {"of"},
-               {"changes"}},
-              {.columns = text.columns()});
-  const std::vector<FoundRepair> found = nearest_repairs(result);
-  for (const auto& [number, repair, change] : found) {
-    const TunableNumber& of = result.numbers[number];
-    table.add({line_of(of),
-               describe(of, result.source),
-               format_decimal(of.value, 4),
-               {format_decimal(repair->nearest, 4), text.style().good},
-               join(result.tuned[number].repairs.intervals, "; ",
-                    [](const NumberRepair& one) { return describe(one.values); }),
-               describe_changed(result, *repair)});
-  }
-  if (!found.empty()) text.add(table.text());
-}
-
-void add_pairs(const TuneResult& result, Text& text) {
-  if (!result.pairs) return;
-  constexpr std::size_t most_shown = 20;
-  text.title("pairs of numbers with which all expectations hold; there may be others");
-  Table table(text.style(),
-              {number_column("line", 4),
-               {"number"},
-               number_column("value"),
-               number_column("nearest"),
-               {"of"}},
-              {.columns = text.columns()});
-  const auto add = [&](std::size_t number, Millionths value, const std::string& values) {
-    const TunableNumber& of = result.numbers[number];
-    table.add({line_of(of),
-               describe(of, result.source),
-               format_decimal(of.value, 4),
-               {format_decimal(value, 4), text.style().good},
-               values});
-  };
-  const std::size_t shown = std::min(result.pairs->size(), most_shown);
-  for (const PairRepair& pair : std::span(*result.pairs).first(shown)) {
-    add(pair.first, pair.first_value, {});
-    add(pair.second, pair.nearest, "and " + describe(pair.values));
-  }
-  text.add(result.pairs->empty() ? "  none was found\n" : table.text());
-  if (result.pairs->size() > shown) text.line("  and {} more", result.pairs->size() - shown);
+  if (has_repairs(result)) text.add(repairs_table(result, text.style(), text.columns()).text());
 }
 
 /// The nearer a bound, the louder.
@@ -119,7 +68,6 @@ std::string tune_to_text(const TuneResult& result, const Style& style, std::size
             quantity(result.numbers.size(), "number"), quantity(result.missions.size(), "mission"),
             quantity(present.decisions.size(), "different decision"));
   add_repairs(result, text);
-  add_pairs(result, text);
   add_tolerances(result, text);
   text.line("");
   text.painted(present.failures.empty() ? style.good : style.bad,

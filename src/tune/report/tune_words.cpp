@@ -45,6 +45,17 @@ std::string describe_instead(const TuneResult& result, const RunDifference& diff
   return join(parts, ", ") + (others > 0 ? fmt::format(" and {} more", others) : "");
 }
 
+/// "mission.yaml:3, 8; other.yaml:12": what a repair changes.
+std::string describe_changed(const TuneResult& result, const NumberRepair& repair) {
+  std::vector<std::string> parts;
+  for (std::size_t mission = 0; mission < repair.changed.size(); ++mission) {
+    if (repair.changed[mission].empty()) continue;
+    parts.push_back(fmt::format("{}:{}", printable(result.missions[mission]),
+                                lines_of(repair.changed[mission])));
+  }
+  return join(parts, "; ");
+}
+
 }  // namespace
 
 std::string describe(const Interval& values) {
@@ -93,26 +104,62 @@ std::vector<FoundRepair> nearest_repairs(const TuneResult& result) {
   return found;
 }
 
-std::string describe_repairs(const TuneResult& result) {
-  const auto is_searched = [](const TunedNumber& one) { return one.repairs.is_complete; };
-  const bool is_complete = std::all_of(result.tuned.begin(), result.tuned.end(), is_searched);
-  const auto has_any = [](const TunedNumber& one) { return !one.repairs.intervals.empty(); };
-  if (std::any_of(result.tuned.begin(), result.tuned.end(), has_any)) {
-    return "each of these numbers alone makes all expectations hold";
-  }
-  return is_complete
-             ? "no single one of these numbers makes all expectations hold, whatever its value"
-             : "none was found, but the numbers were not searched to the end";
+std::string line_of(const TunableNumber& number) {
+  return number.range ? std::to_string(number.line()) : "-";
 }
 
-std::string describe_changed(const TuneResult& result, const NumberRepair& repair) {
-  std::vector<std::string> parts;
-  for (std::size_t mission = 0; mission < repair.changed.size(); ++mission) {
-    if (repair.changed[mission].empty()) continue;
-    parts.push_back(fmt::format("{}:{}", printable(result.missions[mission]),
-                                lines_of(repair.changed[mission])));
+bool has_repairs(const TuneResult& result) {
+  return (result.pairs && !result.pairs->empty()) || !nearest_repairs(result).empty();
+}
+
+std::string describe_repairs(const TuneResult& result) {
+  if (!nearest_repairs(result).empty()) {
+    return "each of these numbers alone makes all expectations hold";
   }
-  return join(parts, "; ");
+  const bool is_complete =
+      std::all_of(result.tuned.begin(), result.tuned.end(),
+                  [](const TunedNumber& one) { return one.repairs.is_complete; });
+  std::string text = is_complete ? "no number alone makes all expectations hold, whatever its value"
+                                 : "none was found, but the numbers were not searched to the end";
+  if (!result.pairs) return text;
+  return text + (result.pairs->empty() ? "; no pair was found that does"
+                                       : "; these pairs do, and there may be others");
+}
+
+Table repairs_table(const TuneResult& result, const Style& style, std::size_t columns) {
+  Table table(style,
+              {number_column("line", 4),
+               {"number"},
+               number_column("value"),
+               number_column("nearest"),
+               {"of"},
+               {"changes"}},
+              {.columns = columns});
+  const auto add = [&](std::size_t number, Millionths nearest, const std::string& values,
+                       const std::string& changes) {
+    const TunableNumber& of = result.numbers[number];
+    table.add({line_of(of),
+               describe(of, result.source),
+               format_decimal(of.value, 4),
+               {format_decimal(nearest, 4), style.good},
+               values,
+               changes});
+  };
+  const std::vector<FoundRepair> found = nearest_repairs(result);
+  for (const auto& [number, repair, change] : found) {
+    add(number, repair->nearest,
+        join(result.tuned[number].repairs.intervals, "; ",
+             [](const NumberRepair& one) { return describe(one.values); }),
+        describe_changed(result, *repair));
+  }
+  constexpr std::size_t most_pairs = 20;
+  if (!result.pairs) return table;
+  for (const PairRepair& pair :
+       std::span(*result.pairs).first(std::min(result.pairs->size(), most_pairs))) {
+    add(pair.first, pair.first_value, {}, {});
+    add(pair.second, pair.nearest, "with that, " + describe(pair.values), {});
+  }
+  return table;
 }
 
 std::vector<std::string> describe_unaffected(const TuneResult& result) {
