@@ -111,15 +111,15 @@ std::optional<RunDifference> find_difference(const Recording& before, const Reco
     if (is_lost && old_event == old_events.end()) continue;
     const RecordedEvent& first = is_lost ? *old_event : *new_event;
     difference = {mission, first.line, first.record.index, {}, {}, {}, {}};
-    std::map<TaskId, Move> moves;
+    std::map<TaskId, ValueChange> moves;
     if (old_event != old_events.end()) {
       difference->before = old_event->record;
-      for (const Move& move : old_event->moves)
+      for (const ValueChange& move : old_event->moves)
         moves[move.task] = {move.task, move.now, move.before};
     }
     if (!is_lost) {
       difference->now = new_event->record;
-      for (const Move& move : new_event->moves) {
+      for (const ValueChange& move : new_event->moves) {
         moves.try_emplace(move.task, move).first->second.now = move.now;
       }
     }

@@ -21,18 +21,18 @@ struct SolvedProblem {
 };
 
 /// A task has another behavior than before, or than in another run; none: it does not run.
-struct Move {
+struct ValueChange {
   TaskId task;
   BehaviorId before;
   BehaviorId now;
-  friend bool operator==(const Move&, const Move&) = default;
+  friend bool operator==(const ValueChange&, const ValueChange&) = default;
 };
 
 /// What an event did.
 struct RecordedEvent {
   EventRecord record;
   std::uint32_t line = 0;  ///< of the last event of the script by then; 0: none yet
-  std::vector<Move> moves;
+  std::vector<ValueChange> moves;
 };
 
 /// Missions that were run on a catalog.
@@ -71,7 +71,7 @@ struct RunDifference {
   std::uint64_t event = 0;  ///< its number
   std::optional<EventRecord> before;
   std::optional<EventRecord> now;
-  std::vector<Move> moves;                    ///< how the behaviors after it differ
+  std::vector<ValueChange> moves;             ///< how the behaviors after it differ
   std::optional<Recording::Failure> failure;  ///< the first one that is new
 };
 /// Of recordings of the same missions to the end.

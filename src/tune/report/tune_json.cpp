@@ -34,10 +34,10 @@ constexpr auto failure =
            member("message", text, "What was expected and what was found, for people.",
                   [](const Recording::Failure& of) { return of.expectation.message; }));
 
-constexpr auto move =
-    object("move", "", member("task", task, "", &Move::task),
-           member("before", nullable(behavior), "Now; null: it does not run.", &Move::before),
-           member("now", nullable(behavior), "With the other value.", &Move::now));
+constexpr auto move = object(
+    "move", "", member("task", task, "", &ValueChange::task),
+    member("before", nullable(behavior), "Now; null: it does not run.", &ValueChange::before),
+    member("now", nullable(behavior), "With the other value.", &ValueChange::now));
 
 constexpr auto outcome_of = [](const std::optional<EventRecord>& event) {
   return event ? &event->outcome : nullptr;

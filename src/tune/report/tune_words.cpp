@@ -36,7 +36,7 @@ std::string describe_instead(const TuneResult& result, const RunDifference& diff
   };
   constexpr std::size_t most_shown = 3;
   const std::size_t shown = std::min(difference.moves.size(), most_shown);
-  for (const Move& move : std::span(difference.moves).first(shown)) {
+  for (const ValueChange& move : std::span(difference.moves).first(shown)) {
     parts.push_back(task_name(result.catalog, move.task) + ": " +
                     in_place_of(name(move.now), name(move.before)));
   }
