@@ -27,9 +27,7 @@ constexpr const char* tune_footer =
 void add_tune_command(Program& program) {
   const auto options = std::make_shared<TuneOptions>();
   Command& command = program.add_command(
-      "tune",
-      "Reports how wrong each suitability and minimum performance may be before a decision of a "
-      "mission changes, and which number makes expectations hold.",
+      "tune", "Reports how wrong each number of a catalog may be before missions go differently.",
       {{"[OPTION...] [CATALOG] SCRIPT..."}, tune_examples, tune_footer});
   command.argument("CATALOG SCRIPT", options->paths, input("...", ValueKind::catalog_or_script),
                    "The catalog, unless the scripts name it; then event scripts, folders of them, "

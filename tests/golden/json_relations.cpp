@@ -39,6 +39,8 @@ class Relations {
       check_coverage(report);
     } else if (schema == "cbc.mutants/1") {
       check_mutants(report);
+    } else if (schema == "cbc.tune/1") {
+      check_tune(report);
     } else if (schema == "cbc.what-if/1") {
       check_what_if(report);
     } else {
@@ -385,6 +387,30 @@ class Relations {
     for (const char* const result :
          {"noticed", "survived", "equivalent", "undecided", "unjudged"}) {
       expect(report.at(result) == counts[result], std::string("the number of ") + result);
+    }
+  }
+
+  void check_tune(const Json& report) {
+    const auto number_in = [](const Json& object, const char* name) {
+      return std::stod(object.at(name).get<std::string>());
+    };
+    const bool fails = report.at("expectations").at("failed") > 0;
+    for (const Json& number : report.at("numbers")) {
+      const double value = number_in(number, "value");
+      const double low = number_in(number, "low");
+      const double high = number_in(number, "high");
+      expect(low <= value && value <= high, "a value is not in its tolerance");
+      expect(number.at("below").is_null() == (low == 0), "what is below a tolerance");
+      expect(number.at("above").is_null() == (high == 100), "what is above a tolerance");
+      expect(fails || number.at("repairs").empty(), "a repair where nothing fails");
+      double end = -1;
+      for (const Json& repair : number.at("repairs")) {
+        const double nearest = number_in(repair, "nearest");
+        expect(end < number_in(repair, "low"), "repairs are not in order");
+        end = number_in(repair, "high");
+        expect(number_in(repair, "low") <= nearest && nearest <= end, "the nearest repair");
+        expect(value < number_in(repair, "low") || end < value, "a repair changes nothing");
+      }
     }
   }
 

@@ -246,6 +246,14 @@ const lies = {
     ['a histogram of triples', histogram, (numbers) => numbers.push([9999, 1, 1])],
   ],
 
+  tune: [
+    ['no mission', whole, {missions: []}],
+    ['a number in line 0', ({numbers}) => numbers[0], {line: 0}],
+    ['a difference at event 0', (tuning) => tuning.numbers.find((item) => item.below)?.below, {event: 0}],
+    ['a failure in line 0', ({expectations}) => expectations.failures[0], {line: 0}],
+    ['a search that is incomplete or not', ({numbers}) => numbers[0], {incomplete: false}],
+  ],
+
   verify: [
     ['an undecided property with a script', propertyWhere('undecided'), {length: 1, script: ''}],
     ['a violated property without a script', propertyWhere('violated', 'never'), {script: null}],

@@ -100,6 +100,10 @@ class Runs {
     if (fs.existsSync(state)) yield* label(`state of ${script}`, fs.readFileSync(state, 'utf8'));
   }
 
+  *tune(catalog, script) {
+    yield* this.labelled('tune', catalog, script, '--format', 'json');
+  }
+
   *sweep(catalog) {
     const sweep = ['sweep', catalog, '--sequences', '5', '--events', '20', '--format', 'json'];
     yield* this.labelled(...sweep);
@@ -144,6 +148,7 @@ function* textsOfCatalog(runs, file) {
     if (fs.existsSync(path.join(runs.root, script))) {
       yield* runs.solve(file, script, namesIn(dump.text));
       yield* runs.marks(file, script);
+      yield* runs.tune(file, script);
     }
   }
   if (file.startsWith('catalogs/')) yield* runs.verify(file);
