@@ -15,6 +15,7 @@
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
 #include "core/files/read.h"
+#include "core/report/layout.h"
 #include "core/report/run_report.h"
 #include "core/script/runner.h"
 #include "core/support/system.h"
@@ -124,8 +125,10 @@ void point_to_tuning(const std::vector<Mission>& missions, const SolveOptions& o
                   [&](const Mission& mission) { return mission.source.get() == &source; });
   const bool is_text = options.format == "text" && !options.stream.replay;
   if (!is_text || !have_one_catalog || source.text == nullptr) return;
-  fmt::print("which number of the catalog would have to be what: cbc tune {}\n",
-             join(options.paths, " ", printable));
+  const std::string hint =
+      fmt::format("which number of the catalog would have to be what: cbc tune {}",
+                  join(options.paths, " ", printable));
+  fmt::print("{}\n", wrap_line(hint, columns_for(stdout), 2));
 }
 
 int run_missions(const std::vector<Mission>& missions, const SolveOptions& options,
