@@ -8,7 +8,6 @@
 
 #include <fmt/core.h>
 
-#include "core/catalog/numbers.h"
 #include "core/command_line/command_line.h"
 #include "core/files/missions.h"
 #include "core/files/ordered_work.h"
@@ -16,6 +15,7 @@
 #include "core/report/test_report.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
+#include "tune/engine/numbers.h"
 #include "tune/engine/tuner.h"
 #include "tune/report/tune_report.h"
 #include "tune/tune.h"

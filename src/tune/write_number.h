@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/catalog/numbers.h"
 #include "core/check/check.h"
+#include "tune/engine/numbers.h"
 #include "tune/engine/recording.h"
 
 namespace cbc::cli {

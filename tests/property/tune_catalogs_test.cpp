@@ -12,7 +12,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/catalog/numbers.h"
 #include "core/compile/compile.h"
 #include "core/script/reader.h"
 #include "core/yaml/document.h"
@@ -21,24 +20,28 @@
 #include "random_cases.h"
 #include "support/catalog_files.h"
 #include "support/read_file.h"
+#include "tune/engine/numbers.h"
 #include "tune/engine/tuner.h"
 
-namespace cbc::oracle::tune_catalogs_test {
+namespace cbc::tune_catalogs_test {
 namespace {
 
 namespace fs = std::filesystem;
+using oracle::demand;
+using oracle::Random;
+using oracle::Results;
 
 constexpr std::uint64_t default_cases = 200;
 
 struct Robot {
   std::string name;
   CatalogReading reading;
-  std::vector<cbc::Script> missions;
+  std::vector<Script> missions;
   std::vector<TunableNumber> numbers;
 
   [[nodiscard]] Missions all() const {
     Missions all;
-    for (const cbc::Script& mission : missions) all.push_back(&mission);
+    for (const Script& mission : missions) all.push_back(&mission);
     return all;
   }
 };
@@ -76,7 +79,7 @@ const std::vector<Robot>& robots() {
   return all;
 }
 
-bool make_wrong(const Robot& robot, Random& random, Statistics& statistics) {
+bool make_wrong(const Robot& robot, Random& random, oracle::Statistics& statistics) {
   const std::size_t place = random.below(robot.numbers.size());
   const TunableNumber& right = robot.numbers[place];
   if (right.kind != TunableNumber::Kind::suitability || right.uses.empty()) return false;
@@ -117,8 +120,8 @@ void run_case(std::uint64_t seed, Results& results) {
 }
 
 TEST(Tune, FindsTheRightSuitabilityAmongTheRepairs) {
-  run_random_cases(default_cases, run_case, {});
+  oracle::run_random_cases(default_cases, run_case, {});
 }
 
 }  // namespace
-}  // namespace cbc::oracle::tune_catalogs_test
+}  // namespace cbc::tune_catalogs_test

@@ -16,7 +16,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/catalog/numbers.h"
 #include "core/compile/compile.h"
 #include "core/script/reader.h"
 #include "core/yaml/document.h"
@@ -24,6 +23,7 @@
 #include "generator.h"
 #include "oracle.h"
 #include "random_cases.h"
+#include "tune/engine/numbers.h"
 #include "tune/engine/tuner.h"
 #include "yaml_text.h"
 

@@ -42,7 +42,7 @@ class EventListener {
  public:
   virtual ~EventListener() = default;
   virtual void on_event(const EventRecord& record) = 0;
-  /// A problem was searched, one of several of an event that escalates or in which a behavior fails.
+  /// A problem was searched. An event that escalates, or in which a behavior fails, has several.
   /// `solution`: null if none was found. Both are valid until the next search.
   virtual void on_search(const Problem& /*problem*/, const Assignment* /*solution*/) {}
   /// An answer was found, or that there is none (null), of which on_event will tell. The state is

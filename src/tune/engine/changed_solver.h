@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "core/catalog/catalog.h"
-#include "core/catalog/numbers.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/compiled/derive.h"
 #include "runtime/solver/objective.h"
 #include "runtime/solver/solver.h"
+#include "tune/engine/numbers.h"
 #include "tune/engine/recording.h"
 
 namespace cbc {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/catalog/catalog.h"
-#include "core/catalog/numbers.h"
+#include "tune/engine/numbers.h"
 #include "tune/engine/recording.h"
 
 namespace cbc {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/catalog/catalog.h"
-#include "core/catalog/numbers.h"
 #include "core/catalog/reader.h"
+#include "tune/engine/numbers.h"
 #include "tune/engine/recording.h"
 
 namespace cbc {

@@ -1,4 +1,4 @@
-#include "core/catalog/numbers.h"
+#include "tune/engine/numbers.h"
 
 #include <algorithm>
 #include <map>

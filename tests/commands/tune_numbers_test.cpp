@@ -1,14 +1,13 @@
 // Which numbers a catalog has, and what they stand for.
-#include "core/catalog/numbers.h"
-
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/yaml/document.h"
+#include "tune/engine/numbers.h"
 
-namespace cbc::numbers_test {
+namespace cbc::tune_numbers_test {
 namespace {
 
 CatalogReading read(const std::string& text) {
@@ -108,4 +107,4 @@ tasks:
 }
 
 }  // namespace
-}  // namespace cbc::numbers_test
+}  // namespace cbc::tune_numbers_test
