@@ -107,19 +107,20 @@ std::optional<RunDifference> find_difference(const Recording& before, const Reco
     const std::vector<RecordedEvent>& new_events = now.events[mission];
     const auto [old_event, new_event] = std::mismatch(
         old_events.begin(), old_events.end(), new_events.begin(), new_events.end(), is_same);
-    const bool is_lost = new_event == new_events.end();
-    if (is_lost && old_event == old_events.end()) continue;
-    const RecordedEvent& first = is_lost ? *old_event : *new_event;
-    difference = {mission, first.line, first.record.index, {}, {}, {}, {}};
+    const RecordedEvent* const old_one = old_event == old_events.end() ? nullptr : &*old_event;
+    const RecordedEvent* const new_one = new_event == new_events.end() ? nullptr : &*new_event;
+    const RecordedEvent* const first = new_one != nullptr ? new_one : old_one;
+    if (first == nullptr) continue;
+    difference = {mission, first->line, first->record.index, {}, {}, {}, {}};
     std::map<TaskId, ValueChange> moves;
-    if (old_event != old_events.end()) {
-      difference->before = old_event->record;
-      for (const ValueChange& move : old_event->moves)
+    if (old_one != nullptr) {
+      difference->before = old_one->record;
+      for (const ValueChange& move : old_one->moves)
         moves[move.task] = {move.task, move.now, move.before};
     }
-    if (!is_lost) {
-      difference->now = new_event->record;
-      for (const ValueChange& move : new_event->moves) {
+    if (new_one != nullptr) {
+      difference->now = new_one->record;
+      for (const ValueChange& move : new_one->moves) {
         moves.try_emplace(move.task, move).first->second.now = move.now;
       }
     }
