@@ -12,23 +12,25 @@
 namespace cbc {
 namespace {
 
-constexpr double scale = 10'000;  // a percent is a unit of the picture
-
+/// A percent is a unit of the picture. A single value is seen, too.
 std::string bar_of(const Interval& values, std::string_view look) {
-  return fmt::format(R"(<rect class="{}" x="{}" width="{}" height="8"/>)", look, values.low / scale,
-                     (values.high - values.low) / scale + 0.2);
+  constexpr Millionths least_width = 2'000;
+  return fmt::format(R"(<rect class="{}" x="{}" width="{}" height="8"/>)", look,
+                     format_decimal(values.low, 4),
+                     format_decimal(values.high - values.low + least_width, 4));
 }
 
 std::string picture_of(const TuneResult& result, std::size_t number) {
-  const Millionths value = result.numbers[number].value;
-  std::string svg =
-      "<svg viewBox=\"-1 0 102 8\" role=\"img\"><rect class=\"scale\" width=\"100\" height=\"8\"/>";
-  svg += bar_of(result.tuned[number].tolerance.values, "same");
+  const std::string value = format_decimal(result.numbers[number].value, 4);
+  const Interval& same = result.tuned[number].tolerance.values;
+  std::string svg = fmt::format(
+      R"(<svg viewBox="-1 0 102 8" role="img" aria-label="{} in {}"><rect class="scale" width="100" height="8"/>)",
+      value, describe(same));
+  svg += bar_of(same, "same");
   for (const NumberRepair& repair : result.tuned[number].repairs.intervals) {
     svg += bar_of(repair.values, "repair");
   }
-  return svg +
-         fmt::format(R"(<circle class="value" cx="{}" cy="4" r="1.5"/></svg>)", value / scale);
+  return svg + fmt::format(R"(<circle class="value" cx="{}" cy="4" r="1.5"/></svg>)", value);
 }
 
 std::string row_of(const TuneResult& result, std::size_t number) {
