@@ -177,15 +177,9 @@ void run_property_case(std::uint64_t seed, oracle::Results& results) {
 }
 
 const oracle::LowerBound property_bounds[] = {
-    {"script", 1000},
-    {"more than three moves", 60},
-    {"a due", 100},
-    {"two dues", 5},
-    {"several groups", 40},
-    {"reactive tasks of other groups", 40},
-    {"timeouts", 100},
-    {"does not keep running", 20},
-    {"outcome", 5000},
+    {"script", 1000},  {"more than three moves", 60}, {"a due", 100},
+    {"two dues", 5},   {"several groups", 40},        {"reactive tasks of other groups", 40},
+    {"timeouts", 100}, {"does not keep running", 20}, {"outcome", 5000},
 };
 
 TEST(Witness, OfAPropertyIsAScriptThatSolveRepeats) {
