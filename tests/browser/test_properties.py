@@ -72,13 +72,16 @@ class Properties(PageCase):
         self.browser.screenshot(OUT / "properties.png")
 
     def test_none_has_a_script(self):
-        answers = self.verify("proved", [{"never": {"running": ["FETCH_SHELF"], "active_includes": ["SONAR_GUARD"]}, "name": "no sonar there"}])
-        self.assertEqual([(one["result"], one["script"]) for one in answers], [("proved", None)])
-        (name, verdict), = self.browser.ask(CELLS)
+        answers = self.verify("proved", [
+            {"never": {"running": ["FETCH_SHELF"], "active_includes": ["SONAR_GUARD"]}, "name": "no sonar there"},
+            {"always_possible": {"stopped": ["FETCH_SHELF"]}}])
+        self.assertEqual([(one["result"], one["script"]) for one in answers], [("proved", None)] * 2)
+        (name, verdict), (_, of_states) = self.browser.ask(CELLS)
         self.assertIn("no sonar there", name)
         self.assertIn("FETCH_SHELF", name)  # what it states
-        self.assertRegex(verdict, "^\u2713 proved for \\d+ reachable states$")
-        self.assertEqual(self.text("#overview-summary"), "1 property: 1 proved")
+        self.assertEqual(verdict, "\u2713 proved by the constraints alone, without any state")
+        self.assertRegex(of_states, "^\u2713 proved for \\d+ reachable states$")
+        self.assertEqual(self.text("#overview-summary"), "2 properties: 2 proved")
         for hidden in ("#stage", "#dock", ".controls"):
             self.assertEqual(self.browser.ask(f"document.querySelector('{hidden}').offsetHeight"), 0)
         self.browser.screenshot(OUT / "proved.png")
@@ -86,7 +89,7 @@ class Properties(PageCase):
             self.assert_no_findings_of_axe("proved")
 
     def test_undecided_properties_say_how_far_it_came(self):
-        answers = self.verify("undecided", [{"never": {"running": ["FETCH_SHELF"], "active_includes": ["SONAR_GUARD"]}}], "--max-states", "5")
+        answers = self.verify("undecided", [{"always_possible": {"stopped": ["FETCH_SHELF"]}}], "--max-states", "5")
         self.assertEqual([one["result"] for one in answers], ["undecided"])
         (_, verdict), = self.browser.ask(CELLS)
         self.assertTrue(verdict.startswith("? undecided ended by --max-states 5"), verdict)
