@@ -227,6 +227,7 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& 
   }
   const auto tests_of = [&](std::size_t property) {
     std::vector<PropertyTest*> of_property;
+    of_property.reserve(tests.size());
     for (const Tests& of_part : tests) of_property.push_back(of_part[property].get());
     return of_property;
   };

@@ -24,8 +24,8 @@ FaultSets::FaultSets(Diagrams& sets, const std::vector<std::uint32_t>& kinds, st
   }
   std::vector<bool> all_bits(sets_.bits(), false);
   std::vector<std::vector<bool>> bits;
-  for (std::uint32_t fault = 0; fault < kinds_.size(); ++fault) {
-    if (kinds_[fault] >= bits.size()) bits.resize(kinds_[fault] + 1, all_bits);
+  for (const std::uint32_t kind : kinds_) {
+    if (kind >= bits.size()) bits.resize(kind + std::size_t{1}, all_bits);
   }
   for (std::uint32_t fault = 0; fault < kinds_.size(); ++fault) {
     all_bits[bit_of(fault)] = true;

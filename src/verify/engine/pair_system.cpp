@@ -143,6 +143,7 @@ ControlSystem::Outcome PairSystem::compare() {
 std::uint32_t PairSystem::note_of(const std::vector<AnswerComparison::Note>& notes) {
   if (notes.empty()) return 0;
   std::vector<std::uint32_t> tasks;
+  tasks.reserve(notes.size());
   for (const AnswerComparison::Note& note : notes) tasks.push_back(note.task);
   std::sort(tasks.begin(), tasks.end());
   tasks.erase(std::unique(tasks.begin(), tasks.end()), tasks.end());

@@ -133,8 +133,7 @@ void StatePart::visit(std::uint32_t depth, Visitor& visitor) {
 
 template <typename Visitor, typename MayGoOn>
 bool StatePart::make_moves(std::uint32_t depth, Visitor& visitor, MayGoOn&& may_go_on) {
-  for (std::size_t place = 0; place < layers_[depth].size(); ++place) {
-    const States states = layers_[depth][place];
+  for (const States& states : layers_[depth]) {
     controls_.load(states.control);
     if (!make_moves_of(states, visitor, may_go_on)) return false;
     collect_if_crowded();

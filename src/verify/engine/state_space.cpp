@@ -188,6 +188,7 @@ std::vector<std::vector<Layer>> StateSpace::layers_before(const std::vector<Laye
 StateSpace::Path StateSpace::path_to(const std::vector<const FirstStates*>& noted) {
   const std::uint32_t depth = least_depth(noted);
   std::vector<Layer> targets;
+  targets.reserve(noted.size());
   for (const FirstStates* const states : noted) {
     targets.push_back(states->depth() == depth ? states->layer() : Layer());
   }
