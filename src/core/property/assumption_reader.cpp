@@ -270,7 +270,7 @@ class AssumptionReader {
         continue;
       }
       const SituationPart part = part_of(*situation, catalog_);
-      if (knows_first_ && is_first(part)) {
+      if (knows_first_ && holds_at_first(out_, part)) {
         reporter_.report(rule::invalid_value, item->range,
                          "this excludes the situation at the beginning; 'initially' sets another "
                          "one");
@@ -311,17 +311,6 @@ class AssumptionReader {
       names.push_back(quote(catalog_.name_of_variable(variable)));
     }
     return list_with_and(names);
-  }
-
-  [[nodiscard]] bool is_first(const SituationPart& part) const {
-    return std::all_of(part.variables.begin(), part.variables.end(),
-                       [this](VariableValue value) {
-                         return initial_value(out_, value.variable) == value.value;
-                       }) &&
-           std::all_of(part.behaviors.begin(), part.behaviors.end(),
-                       [this](const SituationPart::Own& own) {
-                         return is_available_at_first(out_, own.behavior) == own.available;
-                       });
   }
 
   [[nodiscard]] std::uint32_t place_of(TaskId task) const {

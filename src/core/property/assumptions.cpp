@@ -34,6 +34,17 @@ bool is_available_at_first(const Assumptions& assumptions, BehaviorId behavior) 
   return found == behaviors.end() || found->available;
 }
 
+bool holds_at_first(const Assumptions& assumptions, const SituationPart& part) {
+  return std::all_of(part.variables.begin(), part.variables.end(),
+                     [&](const VariableValue& value) {
+                       return initial_value(assumptions, value.variable) == value.value;
+                     }) &&
+         std::all_of(part.behaviors.begin(), part.behaviors.end(),
+                     [&](const SituationPart::Own& own) {
+                       return is_available_at_first(assumptions, own.behavior) == own.available;
+                     });
+}
+
 std::uint32_t count_combinations(const CompiledCatalog& catalog,
                                  const std::vector<std::uint32_t>& variables) {
   std::uint64_t count = 1;

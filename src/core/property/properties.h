@@ -68,6 +68,8 @@ struct StatedAssumptions {
 /// Of the first state: the value of a situation variable, and own(b) of a behavior.
 [[nodiscard]] std::uint32_t initial_value(const Assumptions& assumptions, std::uint32_t variable);
 [[nodiscard]] bool is_available_at_first(const Assumptions& assumptions, BehaviorId behavior);
+/// Whether all of the part holds in the first state.
+[[nodiscard]] bool holds_at_first(const Assumptions& assumptions, const SituationPart& part);
 
 [[nodiscard]] bool can_become_faulty(const Assumptions& assumptions, BehaviorId behavior);
 

@@ -46,18 +46,26 @@ std::vector<TunableNumber> find_numbers(const CatalogReading& reading) {
   return numbers;
 }
 
-std::uint32_t behavior_of(const TunableNumber& number) {
-  const std::uint32_t first = number.uses.empty() ? none : number.uses.front().behavior;
+namespace {
+
+/// What all uses of a number share; none if they do not.
+template <typename Part>
+std::uint32_t shared_by(const TunableNumber& number, Part TunableNumber::Use::*part) {
+  if (number.is_default || number.uses.empty()) return none;
+  const std::uint32_t first = number.uses.front().*part;
   const bool is_shared = std::all_of(number.uses.begin(), number.uses.end(),
-                                     [&](const auto& use) { return use.behavior == first; });
-  return is_shared && !number.is_default ? first : none;
+                                     [&](const auto& use) { return use.*part == first; });
+  return is_shared ? first : none;
+}
+
+}  // namespace
+
+std::uint32_t behavior_of(const TunableNumber& number) {
+  return shared_by(number, &TunableNumber::Use::behavior);
 }
 
 std::uint32_t task_of(const TunableNumber& number) {
-  const std::uint32_t first = number.uses.empty() ? none : number.uses.front().task;
-  const bool is_shared = std::all_of(number.uses.begin(), number.uses.end(),
-                                     [&](const auto& use) { return use.task == first; });
-  return is_shared && !number.is_default ? first : none;
+  return shared_by(number, &TunableNumber::Use::task);
 }
 
 std::string describe(const TunableNumber& number, const Catalog& catalog) {

@@ -367,29 +367,16 @@ class CaseSearch {
   std::uint64_t effort_ = 0;
 };
 
-/// Whether the first situation is one that never occurs, which is an error.
-bool is_first_excluded(const Assumptions& assumptions) {
-  return std::any_of(
-      assumptions.never.begin(), assumptions.never.end(), [&](const SituationPart& entry) {
-        return std::all_of(entry.variables.begin(), entry.variables.end(),
-                           [&](const VariableValue& value) {
-                             return initial_value(assumptions, value.variable) == value.value;
-                           }) &&
-               std::all_of(entry.behaviors.begin(), entry.behaviors.end(),
-                           [&](const SituationPart::Own& own) {
-                             return is_available_at_first(assumptions, own.behavior) ==
-                                    own.available;
-                           });
-      });
-}
-
 }  // namespace
 
 bool is_proved_by_constraints(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
                               const Assumptions& assumptions, const Property& property) {
   const bool is_always = property.kind == Property::Kind::always;
   if (!is_always && property.kind != Property::Kind::never) return false;
-  if (is_first_excluded(assumptions)) return false;
+  const auto is_first = [&](const SituationPart& part) {
+    return holds_at_first(assumptions, part);
+  };
+  if (std::any_of(assumptions.never.begin(), assumptions.never.end(), is_first)) return false;
   const FormulaMaker maker(catalog, groups);
   Formula broken{Formula::Kind::all, {}, {}};
   broken.parts.push_back(maker.make(property.condition, !is_always));

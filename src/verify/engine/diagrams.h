@@ -56,7 +56,7 @@ class Diagrams {
   /// Gives the bits of one string these values.
   void change(std::vector<std::uint8_t>& string, ValuesNumber values) const;
 
-  /// Bits that one_set() and one_cleared() change, kept as long as this object.
+  /// Bits that one_changed() changes, kept as long as this object.
   [[nodiscard]] ValuesNumber keep_bits(std::vector<bool> bits);
   /// The strings that come of those of the set by setting (clearing) one of these bits that was not
   /// (was) set.

@@ -104,13 +104,6 @@ bool SituationSpace::may_fit(BehaviorId behavior, const ValueSets& sets) const {
   return true;
 }
 
-bool SituationSpace::always_fits(BehaviorId behavior, const ValueSets& sets) const {
-  if (catalog_.fitting_values_of(behavior).empty()) return true;
-  ValueSets restricted = sets;
-  restrict(behavior, restricted);
-  return restricted == sets;
-}
-
 std::optional<VariableValues> SituationSpace::find(ValueSets sets) const {
   VariableValues values(catalog_.variables.size());
   // The loop goes on with the last variable of a violated entry, the recursion tries the others.

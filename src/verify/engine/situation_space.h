@@ -42,9 +42,8 @@ class SituationSpace {
   void restrict(BehaviorId behavior, ValueSets& sets) const;
   /// Leaves a variable only one value.
   void restrict(VariableValue value, ValueSets& sets) const;
-  /// Whether a behavior fits in some, in every one of the situations, be they excluded or not.
+  /// Whether a behavior fits in some of the situations, be they excluded or not.
   [[nodiscard]] bool may_fit(BehaviorId behavior, const ValueSets& sets) const;
-  [[nodiscard]] bool always_fits(BehaviorId behavior, const ValueSets& sets) const;
 
   /// One of the situations that is not excluded, or nothing if there is none.
   [[nodiscard]] std::optional<VariableValues> find(ValueSets sets) const;

@@ -4,9 +4,6 @@
 // model checking: 10^20 states and beyond", Information and Computation 98 (1992)) would need every
 // decision as a formula, but a decision is an optimum over all assignments, which the solver finds;
 // and controls are few.
-//
-// The first shortest path to a target: backward, the states of each depth from which it can still
-// be reached in time; then forward, in single states, always the first move into those.
 
 #include "verify/engine/state_part.h"
 
