@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/command_line/limits.h"
+
 namespace cbc::cli {
 
 /// The options of `cbc tune`.
@@ -18,9 +20,13 @@ struct TuneOptions {
   bool pairs = false;
   bool write = false;
   std::optional<std::uint64_t> jobs;
+  bool all_states = false;
+  StateLimits limits;  ///< of each exploration
 };
 
 /// Tunes a catalog, and writes the report. Returns the exit status.
 [[nodiscard]] int tune(const TuneOptions& options);
+/// The same over all states.
+[[nodiscard]] int tune_states(const TuneOptions& options);
 
 }  // namespace cbc::cli

@@ -15,6 +15,7 @@
 #include "core/files/output.h"
 #include "core/files/read.h"
 #include "core/property/properties.h"
+#include "core/report/move_words.h"
 #include "core/support/system.h"
 #include "runtime/base/text.h"
 
@@ -83,7 +84,7 @@ int replay_one_outcome(const VerifyOptions& options, const CompiledCatalog& cata
                          fmt::format("Outcome {} of {}\nRun it with: cbc solve CATALOG FILE\n",
                                      reported.number, printable(file)));
   witness.script.file = fmt::format("{}: outcome {}", file, reported.number);
-  const RunResult run = replay_outcome(catalog, witness, reported.moves);
+  const RunResult run = describe_moves(catalog, witness.script, witness.due, reported.moves);
   if (const int status = check_replay(witness, run); status != exit_ok) return status;
   if (!options.scripts) return exit_ok;
   return write_script_of(*options.scripts,

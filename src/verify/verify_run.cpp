@@ -15,6 +15,7 @@
 #include "core/command_line/command_line.h"
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
+#include "core/files/question_loader.h"
 #include "core/property/properties.h"
 #include "core/report/words.h"
 #include "core/support/wording.h"
@@ -22,7 +23,6 @@
 #include "runtime/compiled/compiled_catalog.h"
 #include "verify/found_scripts.h"
 #include "verify/named_in_options.h"
-#include "verify/question_loader.h"
 #include "verify/report/verify_report.h"
 #include "verify/verify.h"
 
@@ -51,7 +51,7 @@ int prepare_outputs(const VerifyOptions& options) {
 /// One call of the command, after its input was read.
 class Call {
  public:
-  Call(const VerifyOptions& options, VerifyQuestions questions)
+  Call(const VerifyOptions& options, Questions questions)
       : options_(options), questions_(std::move(questions)), catalog_(*questions_.catalog) {
     result_.catalog = questions_.catalog;
     result_.limits = limits_of(options.limits);
@@ -431,7 +431,7 @@ class Call {
   }
 
   const VerifyOptions& options_;
-  VerifyQuestions questions_;
+  Questions questions_;
   const CompiledCatalog& catalog_;
   StopSignals signals_;
   VerifyResult result_;
@@ -443,7 +443,7 @@ class Call {
 
 int verify(const VerifyOptions& options) {
   QuestionLoader loader;
-  std::optional<VerifyQuestions> questions = loader.load(options.paths, options.same_as);
+  std::optional<Questions> questions = loader.load(options.paths, options.same_as);
   if (!questions) {
     // CI systems could take a missing report for one without failures.
     const VerifyFormat& format = *find_named(verify_formats(), options.format);

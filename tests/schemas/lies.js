@@ -249,6 +249,8 @@ const lies = {
   tune: [
     ['no mission', whole, {missions: []}],
     ['a number in line 0', ({numbers}) => numbers[0], {line: 0}],
+    ['a way of no moves', ({numbers}) => numbers.find((item) => item.below?.moves)?.below, {moves: []}],
+    ['a property in line 0', ({numbers}) => numbers.find((item) => item.below?.breaks)?.below.breaks, {line: 0}],
     ['a difference at event 0', (tuning) => tuning.numbers.find((item) => item.below)?.below, {event: 0}],
     ['a failure in line 0', ({expectations}) => expectations.failures[0], {line: 0}],
     ['a search that is incomplete or not', ({numbers}) => numbers[0], {incomplete: false}],

@@ -78,6 +78,7 @@ class Runs {
     const properties = catalog.replace(/yaml$/, 'properties.yaml');
     if (fs.existsSync(path.join(this.root, properties))) {
       yield* this.labelled('verify', properties, ...limits);
+      yield* this.labelled('tune', '--all-states', properties, ...limits);
     }
   }
 

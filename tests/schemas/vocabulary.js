@@ -95,7 +95,8 @@ function isStop(object) {
 function isOptional(object, name) {
   if (name === 'task') return 'verb' in object; // of a finish; not of what is about tasks
   if (['conflict', 'message'].includes(name)) return isStop(object);
-  if (name === 'pairs') return 'numbers' in object; // of a tuning; not of overrides
+  if (['pairs', 'states'].includes(name)) return 'numbers' in object; // of a tuning; not of others
+  if (['breaks', 'moves'].includes(name)) return 'instead' in object; // of a tuning
   if (name === 'together') return 'constraints' in object || 'never' in object; // not of a pair
   if (name === 'situation') return object.kind === 'behavior' || 'event' in object;
   if (name === 'variables') return !('groups' in object) && !('unconditional' in object);
@@ -118,6 +119,7 @@ function isOptional(object, name) {
     'faults_of',
     'frozen',
     'in_some_situation',
+    'missions',
     'incomplete',
     'parameters',
     'priority',

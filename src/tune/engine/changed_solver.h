@@ -10,7 +10,7 @@
 #include "runtime/solver/objective.h"
 #include "runtime/solver/solver.h"
 #include "tune/engine/numbers.h"
-#include "tune/engine/recording.h"
+#include "tune/engine/solved_problems.h"
 
 namespace cbc {
 

@@ -34,14 +34,15 @@ namespace {
 
 class RangeSearch {
  public:
-  RangeSearch(const Catalog& catalog, const TunableNumber& number, const Recording& recording)
-      : catalog_(catalog), number_(number), recorded_(recording.catalog) {
+  RangeSearch(const Catalog& catalog, const TunableNumber& number, const CompiledCatalog& recorded,
+              const std::vector<SolvedProblem>& decisions)
+      : catalog_(catalog), number_(number), recorded_(recorded) {
     std::set<std::pair<TaskId, std::uint32_t>> pairs;
     for (const TunableNumber::Use& use : number.uses) {
       tasks_.insert(recorded_.task_ids[use.task]);
       pairs.emplace(recorded_.task_ids[use.task], use.behavior);
     }
-    for (const SolvedProblem& decision : recording.decisions) {
+    for (const SolvedProblem& decision : decisions) {
       if (count_open_tasks(decision.problem) > 0) concerned_.push_back(&decision);
     }
     for (const TaskId task : tasks_) {
@@ -74,13 +75,8 @@ class RangeSearch {
   /// How many tasks that may run have the number. Where one may not, neither its suitabilities nor
   /// what is required of it matter.
   [[nodiscard]] std::ptrdiff_t count_open_tasks(const Problem& problem) const {
-    const std::uint32_t first_word = recorded_.words[recorded_.group_tasks[problem.group]];
-    return std::count_if(tasks_.begin(), tasks_.end(), [&](TaskId task) {
-      if (recorded_.tasks[task].group != problem.group) return false;
-      const auto domain = problem.domains.begin() - first_word;
-      return std::any_of(domain + recorded_.words[task], domain + recorded_.words[task + 1],
-                         [](std::uint64_t word) { return word != 0; });
-    });
+    return std::count_if(tasks_.begin(), tasks_.end(),
+                         [&](TaskId task) { return may_run(recorded_, problem, task); });
   }
 
   [[nodiscard]] bool all_stay(Millionths value) {
@@ -159,8 +155,9 @@ class RangeSearch {
 }  // namespace
 
 Millionths last_unchanged(const Catalog& catalog, const TunableNumber& number, Millionths value,
-                          const Recording& recording, bool upwards) {
-  return RangeSearch(catalog, number, recording).run(value, upwards);
+                          const CompiledCatalog& recorded,
+                          const std::vector<SolvedProblem>& decisions, bool upwards) {
+  return RangeSearch(catalog, number, recorded, decisions).run(value, upwards);
 }
 
 }  // namespace cbc

@@ -1,14 +1,18 @@
 #pragma once
 
+#include <vector>
+
 #include "core/catalog/catalog.h"
+#include "runtime/compiled/compiled_catalog.h"
 #include "tune/engine/numbers.h"
-#include "tune/engine/recording.h"
+#include "tune/engine/solved_problems.h"
 
 namespace cbc {
 
-/// How far a number may go from `value`, upwards or downwards, so that all decisions stay as they
-/// were recorded. `catalog`: the source of what was recorded, where the number has this value.
+/// How far a number may go from `value`, upwards or downwards, so that all decisions of `recorded`
+/// stay. `catalog`: its source, where the number has this value.
 [[nodiscard]] Millionths last_unchanged(const Catalog& catalog, const TunableNumber& number,
-                                        Millionths value, const Recording& recording, bool upwards);
+                                        Millionths value, const CompiledCatalog& recorded,
+                                        const std::vector<SolvedProblem>& decisions, bool upwards);
 
 }  // namespace cbc

@@ -4,41 +4,23 @@
 #include <map>
 #include <set>
 #include <string_view>
-#include <unordered_set>
 #include <utility>
 
 namespace cbc {
 namespace {
 
-/// What tells problems apart, as bytes.
-std::string key_of(const Problem& problem) {
-  std::string key(reinterpret_cast<const char*>(&problem.group), sizeof problem.group);
-  const auto add = [&key](const auto& list) {
-    const std::size_t size = list.size();
-    key.append(reinterpret_cast<const char*>(&size), sizeof size);
-    key.append(reinterpret_cast<const char*>(list.data()), size * sizeof(list[0]));
-  };
-  add(problem.domains);
-  add(problem.may_stop);
-  add(problem.present);
-  add(problem.requests);
-  add(problem.active);
-  return key;
-}
-
 class Recorder final : public RunListener {
  public:
   explicit Recorder(Recording& recording) : recording_(recording) {}
 
+  [[nodiscard]] std::vector<SolvedProblem> take_decisions() { return decisions_.take(); }
   void begin_mission() {
     recording_.events.emplace_back();
     behaviors_.assign(recording_.catalog.tasks.size(), none);
     line_ = 0;
   }
   void on_search(const Problem& problem, const Assignment* solution) override {
-    if (!known_.insert(key_of(problem)).second) return;
-    recording_.decisions.push_back({problem, {}});
-    if (solution != nullptr) recording_.decisions.back().answer = *solution;
+    decisions_.add(problem, solution);
   }
   void on_event(const EventRecord& record, const Step* step, const State& state) override {
     if (step != nullptr) line_ = step->range.begin.line;
@@ -60,7 +42,7 @@ class Recorder final : public RunListener {
 
  private:
   Recording& recording_;
-  std::unordered_set<std::string> known_;
+  SolvedProblems decisions_;
   std::vector<BehaviorId> behaviors_;  ///< by task, after the last event
   std::uint32_t line_ = 0;
 };
@@ -97,6 +79,7 @@ Recording record(CompiledCatalog catalog, const Missions& missions, Until until)
     recording.internal_error = runner.result().internal_error;
     if (!goes_on || is_over()) break;
   }
+  recording.decisions = recorder.take_decisions();
   return recording;
 }
 
@@ -111,7 +94,10 @@ std::optional<RunDifference> find_difference(const Recording& before, const Reco
     const RecordedEvent* const new_one = new_event == new_events.end() ? nullptr : &*new_event;
     const RecordedEvent* const first = new_one != nullptr ? new_one : old_one;
     if (first == nullptr) continue;
-    difference = {mission, first->line, first->record.index, {}, {}, {}, {}};
+    difference.emplace();
+    difference->mission = mission;
+    difference->line = first->line;
+    difference->event = first->record.index;
     std::map<TaskId, ValueChange> moves;
     if (old_one != nullptr) {
       difference->before = old_one->record;

@@ -10,15 +10,10 @@
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/record.h"
-#include "runtime/solver/problem.h"
+#include "tune/engine/solved_problems.h"
+#include "verify/engine/witness.h"
 
 namespace cbc {
-
-/// A question to the solver, and its answer; empty: there is none.
-struct SolvedProblem {
-  Problem problem;
-  std::optional<Assignment> answer;
-};
 
 /// A task has another behavior than before, or than in another run; none: it does not run.
 struct ValueChange {
@@ -73,6 +68,10 @@ struct RunDifference {
   std::optional<EventRecord> now;
   std::vector<ValueChange> moves;             ///< how the behaviors after it differ
   std::optional<Recording::Failure> failure;  ///< the first one that is new
+  /// Of states in place of missions: how the first of these events is reached, which is the last
+  /// one of it; and the first property, by its place, that holds no more.
+  std::optional<Witness> path;
+  std::optional<std::size_t> broken_property;
 };
 /// Of recordings of the same missions to the end.
 [[nodiscard]] std::optional<RunDifference> find_difference(const Recording& before,

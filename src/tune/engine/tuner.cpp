@@ -123,7 +123,8 @@ bool Tuner::visit_pieces(Start start, std::size_t number, bool upwards, Until un
   Recording further;
   Millionths value = changed.value;
   for (std::size_t count = 0; count < most_pieces; ++count) {
-    const Millionths end = last_unchanged(start.catalog, changed, value, *recording, upwards);
+    const Millionths end = last_unchanged(start.catalog, changed, value, recording->catalog,
+                                          recording->decisions, upwards);
     if (!visit(*recording, {std::min(value, end), std::max(value, end)})) return true;
     if (end == (upwards ? one_million : 0)) return true;
     value = upwards ? end + 1 : end - 1;

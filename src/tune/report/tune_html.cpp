@@ -62,12 +62,17 @@ std::string failures_of(const TuneResult& result) {
 
 std::string tune_to_html(const TuneResult& result) {
   std::string html = failures_of(result);
+  html += fmt::format(
+      "<h2>Tolerances</h2>\n<p>The most fragile first. A bar is what the number may be while {}; "
+      "the "
+      "dot is its value{}.</p>\n",
+      result.states ? "all events in all reachable states are decided as they are now"
+                    : "all missions go as they do now",
+      result.states ? "" : ", and values that repair expectations are framed");
   html +=
-      "<h2>Tolerances</h2>\n<p>The most fragile first. A bar is what the number may be while all "
-      "missions go as they do now; the dot is its value, and values that repair expectations are "
-      "framed.</p>\n<table class=\"tune\">\n<tr><th scope=\"col\">line</th><th scope=\"col\">number"
-      "</th><th scope=\"col\">value</th><th scope=\"col\">0 to 100</th><th scope=\"col\">the same "
-      "from</th><th scope=\"col\">beyond</th></tr>\n";
+      "<table class=\"tune\">\n<tr><th scope=\"col\">line</th><th scope=\"col\">number</th><th "
+      "scope=\"col\">value</th><th scope=\"col\">0 to 100</th><th scope=\"col\">the same from</th>"
+      "<th scope=\"col\">beyond</th></tr>\n";
   for (const std::size_t number : fragile_first(result)) html += row_of(result, number);
   html += "</table>\n";
   for (const std::string& line : describe_unaffected(result)) {

@@ -1,4 +1,5 @@
 #include "core/compile/catalog_json.h"
+#include "core/report/words.h"
 #include "core/support/json_description.h"
 #include "runtime/base/text.h"
 #include "tune/report/tune_report.h"
@@ -51,20 +52,38 @@ constexpr auto instead =
            member("tasks", list(move), "With other behaviors, in catalog order by groups.",
                   &RunDifference::moves));
 
-constexpr auto difference =
-    object("difference", "The first event that is different beyond a bound.",
-           member("mission", text, "The script.",
-                  [](const RunDifference& of, const TuneResult& result) {
-                    return mission(of.mission, result);
-                  }),
-           member("line", nullable(line_number),
-                  "Of the event, or of the last one of the script before it; null: there is none.",
-                  [](const RunDifference& of) { return of.line > 0 ? &of.line : nullptr; }),
-           member("event", integer(1), "Its number, counting all events.", &RunDifference::event),
-           member(
-               "instead", instead, "", [](const RunDifference& of) -> const auto& { return of; }),
-           member("fails", nullable(failure), "The first expectation that then fails.",
-                  &RunDifference::failure));
+constexpr auto property =
+    object("property", "", member("line", line_number, "Of the property file.", &Property::line),
+           member("property", text, "In words.", [](const Property& of, const TuneResult& result) {
+             return describe_property(result.catalog, of);
+           }));
+
+constexpr auto difference = object(
+    "difference", "The first event that is different beyond a bound.",
+    member("mission", nullable(text), "The script. Null: of a state.",
+           [](const RunDifference& of, const TuneResult& result) {
+             return of.path ? nullptr : &mission(of.mission, result);
+           }),
+    member("line", nullable(line_number),
+           "Of the event, or of the last one of the script before it; null: there is none.",
+           [](const RunDifference& of) { return of.line > 0 && !of.path ? &of.line : nullptr; }),
+    member("event", integer(1), "Its number, counting all events.", &RunDifference::event),
+    member(
+        "instead", instead, "", [](const RunDifference& of) -> const auto& { return of; }),
+    member("fails", nullable(failure), "The first expectation that then fails.",
+           &RunDifference::failure),
+    optional("moves", texts.at_least(1),
+             "With --all-states: a shortest way to the event, which is the last one of it, "
+             "in words.",
+             [](const RunDifference& of, const TuneResult& result) {
+               return of.path ? std::optional(moves_to(result, of)) : std::nullopt;
+             }),
+    optional("breaks", property,
+             "With --all-states: the first property that holds now, and then no more.",
+             [](const RunDifference& of, const TuneResult& result) {
+               return of.broken_property ? &result.states->file.properties[*of.broken_property]
+                                         : nullptr;
+             }));
 
 constexpr auto repair = object(
     "repair", "Values with which all expectations hold.", part(&NumberRepair::values, interval),
@@ -120,8 +139,9 @@ constexpr auto tolerance =
 constexpr auto number = object(
     "number", "A place of the catalog with a suitability or a minimum performance.",
     part(number_at, identity), part(tuned_at, part(&TunedNumber::tolerance, tolerance)),
-    member("used", boolean, "false: no behavior or task has the number.",
-           [](std::size_t place, const TuneResult& of) { return !of.numbers[place].uses.empty(); }),
+    member("used", boolean,
+           "false: no behavior or task has the number, or no decision of any state uses it.",
+           [](std::size_t place, const TuneResult& of) { return of.tuned[place].is_used; }),
     part(tuned_at,
          part(&TunedNumber::repairs,
               group(member("repairs", list(repair),
@@ -145,8 +165,24 @@ constexpr auto report = object(
     member(
         "catalog", text, "The catalog, as given.",
         [](const TuneResult& of) -> const auto& { return of.source.file; }),
-    member("missions", texts.at_least(1), "The scripts, in the order in which they ran.",
-           &TuneResult::missions)
+    optional("missions", texts.at_least(1),
+             "The scripts, in the order in which they ran. With --all-states there are none.",
+             [](const TuneResult& of) { return of.states ? nullptr : &of.missions; })
+        .on_line(),
+    optional("states",
+             object("states", "",
+                    member("file", nullable(text), "The property file that says what is assumed.",
+                           [](const TunedStates& of) {
+                             return of.file.path.empty() ? nullptr : &of.file.path;
+                           }),
+                    member("states", count, "", &TunedStates::states),
+                    member("transitions", count, "", &TunedStates::transitions),
+                    member("decisions", count, "Different ones.",
+                           [](const TunedStates&, const TuneResult& result) {
+                             return result.present.decisions.size();
+                           })),
+             "With --all-states: what was looked at in place of missions, of all groups.",
+             &TuneResult::states)
         .on_line(),
     member("numbers", list(number).on_lines(), "In the order of the file.",
            [](const TuneResult& of) {

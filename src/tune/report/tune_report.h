@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
+#include "core/property/properties.h"
 #include "core/report/table.h"
 #include "tune/engine/tuner.h"
 
@@ -19,17 +20,26 @@ namespace cbc {
 struct TunedNumber {
   Tolerance tolerance;
   Repairs repairs;
+  bool is_used = true;  ///< something has the number, and some decision of a state uses it
+};
+
+/// Where all reachable states were looked at in place of missions.
+struct TunedStates {
+  std::uint64_t states = 0;
+  std::uint64_t transitions = 0;
+  const PropertyFile& file;
 };
 
 struct TuneResult {
   const Catalog& source;
   const CompiledCatalog& catalog;  ///< of the source
   const std::vector<TunableNumber>& numbers;
-  const Recording& present;
+  const Recording& present;                      ///< of states only the decisions
   std::vector<std::string> missions;             ///< their files
   std::vector<TunedNumber> tuned;                ///< by number
   std::optional<std::vector<PairRepair>> pairs;  ///< if they were tried: the smallest changes first
   std::optional<Millionths> fail_under;
+  std::optional<TunedStates> states;
 
   [[nodiscard]] bool is_fragile(std::size_t number) const {
     const auto distance = tuned[number].tolerance.distance(numbers[number].value);
@@ -52,6 +62,9 @@ struct FoundRepair {
 [[nodiscard]] std::string describe(const Interval& values);
 /// The difference, with its place, and the expectation that then fails, if there is one.
 [[nodiscard]] std::string describe(const TuneResult& result, const RunDifference& difference);
+/// Of a state: the moves that lead to it, the last of which is different.
+[[nodiscard]] std::vector<std::string> moves_to(const TuneResult& result,
+                                                const RunDifference& difference);
 /// "mission.yaml:4:3: expected ..."
 [[nodiscard]] std::string describe(const TuneResult& result, const Recording::Failure& failure);
 /// Its line; "-" if it stands nowhere.
@@ -62,7 +75,7 @@ struct FoundRepair {
 /// Of each number with repairs, or else the pairs, with what else they change.
 [[nodiscard]] Table repairs_table(const TuneResult& result, const Style& style,
                                   std::size_t columns = 0);
-/// The numbers that may have any value, and those that nothing has.
+/// The numbers that may have any value, and those that nothing has or no decision uses.
 [[nodiscard]] std::vector<std::string> describe_unaffected(const TuneResult& result);
 /// The numbers with a bound, the most fragile first.
 [[nodiscard]] std::vector<std::size_t> fragile_first(const TuneResult& result);

@@ -8,6 +8,7 @@
 #include "core/report/layout.h"
 #include "core/report/table.h"
 #include "core/report/test_report.h"
+#include "core/report/words.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 #include "tune/report/tune_report.h"
@@ -65,10 +66,17 @@ std::string tune_to_text(const TuneResult& result, const Style& style, std::size
   Text text(style, columns);
   const Recording& present = result.present;
   text.line("{}: {}, {}, {}", style.paint(style.strong, printable(result.source.file)),
-            quantity(result.numbers.size(), "number"), quantity(result.missions.size(), "mission"),
+            quantity(result.numbers.size(), "number"),
+            result.states ? quantity(result.states->states, "state")
+                          : quantity(result.missions.size(), "mission"),
             quantity(present.decisions.size(), "different decision"));
+  if (result.states) {
+    const PropertyFile& file = result.states->file;
+    text.add(assumptions_to_text(result.catalog, {file.assumptions, file.path}, columns));
+  }
   add_repairs(result, text);
   add_tolerances(result, text);
+  if (result.states) return text.take();
   text.line("");
   text.painted(present.failures.empty() ? style.good : style.bad,
                "expectations: {} passed, {} failed", present.passed, present.failures.size());

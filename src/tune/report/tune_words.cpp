@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/report/explanation_words.h"
+#include "core/report/move_words.h"
 #include "core/report/words.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
@@ -45,6 +46,20 @@ std::string describe_instead(const TuneResult& result, const RunDifference& diff
   return join(parts, ", ") + (others > 0 ? fmt::format(" and {} more", others) : "");
 }
 
+/// The event in place of others, after the moves that lead to it.
+std::string describe_of_state(const TuneResult& result, const RunDifference& difference) {
+  std::vector<std::string> moves = moves_to(result, difference);
+  const std::string last = moves.empty() ? std::string() : std::move(moves.back());
+  if (!moves.empty()) moves.pop_back();
+  std::string text = last;
+  if (!moves.empty()) text += " after " + join(moves, ", then ");
+  text += ": " + describe_instead(result, difference);
+  if (!difference.broken_property) return text;
+  const PropertyFile& file = result.states->file;
+  return text + fmt::format("; then the property in {}:{} does not hold", printable(file.path),
+                            file.properties[*difference.broken_property].line);
+}
+
 /// "mission.yaml:3, 8; other.yaml:12": what a repair changes.
 std::string describe_changed(const TuneResult& result, const NumberRepair& repair) {
   std::vector<std::string> parts;
@@ -58,12 +73,21 @@ std::string describe_changed(const TuneResult& result, const NumberRepair& repai
 
 }  // namespace
 
+std::vector<std::string> moves_to(const TuneResult& result, const RunDifference& difference) {
+  std::vector<std::string> moves;
+  if (const auto& path = difference.path) {
+    describe_moves(result.catalog, path->script, path->due, moves);
+  }
+  return moves;
+}
+
 std::string describe(const Interval& values) {
   const std::string low = format_decimal(values.low, 4);
   return values.low == values.high ? low : low + " to " + format_decimal(values.high, 4);
 }
 
 std::string describe(const TuneResult& result, const RunDifference& difference) {
+  if (difference.path) return describe_of_state(result, difference);
   const auto place = [&](std::size_t mission, std::uint32_t line) {
     const std::string file = printable(result.missions[mission]);
     return line == 0 ? file : fmt::format("{}:{}", file, line);
@@ -165,10 +189,13 @@ Table repairs_table(const TuneResult& result, const Style& style, std::size_t co
 std::vector<std::string> describe_unaffected(const TuneResult& result) {
   std::size_t unaffected = 0;
   std::vector<std::uint32_t> unused;
+  std::vector<std::uint32_t> undecisive;
   for (std::size_t number = 0; number < result.numbers.size(); ++number) {
     const TunableNumber& of = result.numbers[number];
     if (of.uses.empty()) {
       unused.push_back(of.line());
+    } else if (!result.tuned[number].is_used) {
+      undecisive.push_back(of.line());
     } else if (!result.tuned[number].tolerance.distance(of.value)) {
       ++unaffected;
     }
@@ -179,6 +206,9 @@ std::vector<std::string> describe_unaffected(const TuneResult& result) {
         fmt::format("{} may have any value from 0 to 100", quantity(unaffected, "number")));
   }
   if (!unused.empty()) lines.push_back("nothing has the number in line " + lines_of(unused));
+  if (!undecisive.empty()) {
+    lines.push_back("no decision of any state uses the number in line " + lines_of(undecisive));
+  }
   return lines;
 }
 

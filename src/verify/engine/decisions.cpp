@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace cbc {
 
@@ -13,9 +14,10 @@ constexpr std::size_t requests_in_word = 4;
 
 }  // namespace
 
-Decisions::Decisions(const Model& model, std::size_t most_bytes)
+Decisions::Decisions(const Model& model, std::size_t most_bytes, DecisionListener listener)
     : model_(model),
       most_bytes_(most_bytes),
+      listener_(std::move(listener)),
       solver_(model.catalog(), SearchOptions{}, ranks_),
       value_words_(words_for(model.value_count())),
       task_words_(words_for(model.tasks().size())),
@@ -45,6 +47,7 @@ const Word* Decisions::find(const Question& question) {
   ++computed_;
   load_problem(question);
   const bool is_solved = has_solution(solver_.solve(problem_, solution_).status);
+  if (listener_) listener_(problem_, is_solved ? &solution_ : nullptr);
   if (is_new) {
     if (!is_solved) return answer_of(remember(infeasible));
     if (satisfies_all(question)) return answer_of(remember(solved));

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -23,13 +24,17 @@ struct Question {
   std::span<const std::uint16_t> requests;  ///< tasks, the most important one first
 };
 
+/// Told of each question that the solver was asked, and of its answer; null: there is none.
+using DecisionListener = std::function<void(const Problem& problem, const Assignment* answer)>;
+
 /// Answers questions, and remembers the answers, so that a question that was answered once is
 /// looked up. Where all requests are satisfied, or there is no solution, their order decides
 /// nothing: such an answer holds for all orders. Not for use by several threads.
 class Decisions {
  public:
-  /// Beyond `most_bytes` of answers, all are forgotten.
-  explicit Decisions(const Model& model, std::size_t most_bytes = std::size_t{256} << 20U);
+  /// Beyond `most_bytes` of answers, all are forgotten. `listener` may be empty.
+  explicit Decisions(const Model& model, std::size_t most_bytes = std::size_t{256} << 20U,
+                     DecisionListener listener = {});
   Decisions(const Decisions&) = delete;
   Decisions& operator=(const Decisions&) = delete;
 
@@ -57,6 +62,7 @@ class Decisions {
 
   const Model& model_;
   const std::size_t most_bytes_;
+  const DecisionListener listener_;
   const std::vector<std::uint32_t> ranks_;  ///< as the values stand
   Solver solver_;
   Problem problem_;

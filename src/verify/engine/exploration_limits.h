@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 namespace cbc {
 
@@ -19,6 +20,10 @@ enum class ExplorationEnd : std::uint8_t {
   too_many,  ///< there are no numbers left for states
   stopped    ///< by who was told the progress
 };
+
+/// What ended an exploration, in words: "ended by --max-states 1000".
+[[nodiscard]] std::string describe_exploration_end(ExplorationEnd end,
+                                                   const ExplorationLimits& limits);
 
 struct ExplorationProgress {
   std::uint64_t states = 0;

@@ -29,7 +29,7 @@ constexpr std::uint32_t never_seen = FirstStates::never;
 /// Notes the least depth at which something was seen, and looks at properties.
 class PropertyVisitor {
  public:
-  PropertyVisitor(CatalogSystem& system, const Tests& properties)
+  PropertyVisitor(CatalogSystem& system, const Tests& properties, bool tries_starts)
       : system_(system),
         properties_(properties),
         runs_(system.model().tasks().size(), never_seen),
@@ -39,6 +39,7 @@ class PropertyVisitor {
     for (const auto& property : properties) {
       if (property->looks_at_moves()) of_moves_.push_back(property.get());
     }
+    if (!tries_starts) return;
     const Model& model = system.model();
     for (std::uint32_t task = 0; task < model.tasks().size(); ++task) {
       if (!model.tasks()[task].start_on_request) continue;
@@ -165,6 +166,7 @@ std::uint64_t bytes_of_pairs(const Model& model) {
 Stepper::Options share_memory(const ExplorationOptions& options, std::uint64_t& memory) {
   Stepper::Options result;
   result.reduce = options.reduce;
+  result.on_decision = options.on_decision;
   constexpr std::uint64_t most = std::uint64_t{256} << 20;
   result.decision_bytes = memory == 0 ? most : std::min(most, memory / 4);
   // An array that grows takes twice its size for a while.
@@ -223,7 +225,7 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& 
       tests[place].push_back(
           make_property_test(*property, *of_parts[place], *space.parts()[place]));
     }
-    visitors.emplace_back(*of_parts[place], tests[place]);
+    visitors.emplace_back(*of_parts[place], tests[place], !options.on_decision);
   }
   const auto tests_of = [&](std::size_t property) {
     std::vector<PropertyTest*> of_property;

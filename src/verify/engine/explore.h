@@ -28,6 +28,10 @@ struct ExplorationOptions {
   /// of states and transitions, and the depth, are those of what is left.
   bool reduce = false;
   bool outcomes = false;  ///< also finds Exploration::outcomes
+  /// Of explorations of one catalog. Called by several threads at once; one question may come more
+  /// than once. Only moves count, so Exploration::start_refused, for which starts are tried, is
+  /// left out. May be empty.
+  DecisionListener on_decision;
   /// Called now and then, by one thread at a time; false ends the exploration as a limit does. May
   /// be empty.
   std::function<bool(const std::vector<GroupId>& groups, const ExplorationProgress&)> on_progress;

@@ -119,8 +119,7 @@ class GroupComparer {
         old_assumptions_(old_assumptions),
         new_assumptions_(new_assumptions),
         options_(options),
-        scope_(scope),
-        is_first_enough_(scope.differences == ComparisonScope::Differences::expectable) {}
+        scope_(scope) {}
 
   /// Returns why nothing can be explored, or nothing.
   std::optional<std::string> compare(const GroupPair& groups, GroupComparison& result) {
@@ -146,8 +145,8 @@ class GroupComparer {
       visitors.emplace_back(*of_parts[place], *space.parts()[place], models.tasks.size());
     }
     space.run(visitors, [&] {
-      return is_first_enough_ && std::any_of(visitors.begin(), visitors.end(),
-                                             [](const auto& one) { return one.has_found(); });
+      return scope_.only_first && std::any_of(visitors.begin(), visitors.end(),
+                                              [](const auto& one) { return one.has_found(); });
     });
     if (!space.is_complete() && !space.is_decided()) result.end = space.end();
     result.states = space.states();
@@ -181,7 +180,7 @@ class GroupComparer {
         difference.tasks.push_back(describe(system.answers(), task));
       }
       write_scripts(result.new_groups, difference);
-      if (is_first_enough_) return;
+      if (scope_.only_first) return;
     }
   }
 
@@ -219,7 +218,6 @@ class GroupComparer {
   const Assumptions& new_assumptions_;
   const ExplorationOptions& options_;
   const ComparisonScope& scope_;
-  const bool is_first_enough_;
 };
 
 /// What the old catalog may do by itself: `assumptions` in its numbers, and by default what the
@@ -308,8 +306,7 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
   const Assumptions old_assumptions = translate(assumptions, translations.to_old);
   // What only the new catalog has does not move.
   const Assumptions new_assumptions = translate(old_assumptions, translations.to_new);
-  const bool counts_all = scope.differences == ComparisonScope::Differences::all;
-  if (counts_all) {
+  if (!scope.only_first) {
     find_direct_differences(old_catalog, new_catalog, translations, old_assumptions, assumptions,
                             options, scope, result);
     if (result.error) return result;
@@ -340,7 +337,7 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
                     : result.end                         ? Verdict::Result::undecided
                                                          : Verdict::Result::proved;
   result.result = result.explored;
-  if (counts_all && !result.is_compared && result.explored == Verdict::Result::proved) {
+  if (!scope.only_first && !result.is_compared && result.explored == Verdict::Result::proved) {
     result.result = Verdict::Result::undecided;
   }
   if (!result.direct.empty()) result.result = Verdict::Result::violated;

@@ -103,11 +103,12 @@ struct ComparisonScope {
   enum class Differences : std::uint8_t {
     all,  ///< see CatalogComparison
     /// What an expectation can see: the outcome of a start, stop or finish of a script, and the
-    /// tasks that run with their behaviors. The first one ends the comparison of its groups, and
-    /// direct ones do not count.
+    /// tasks that run with their behaviors.
     expectable
   };
   Differences differences = Differences::all;
+  /// The first one ends the comparison of its groups, and direct ones do not count.
+  bool only_first = false;
   /// Only the groups that are explored together with this one of the new catalog.
   std::optional<std::uint32_t> group;
   Renames renames = {};

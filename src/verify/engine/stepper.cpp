@@ -17,7 +17,9 @@
 namespace cbc {
 
 Stepper::Stepper(const Model& model, const Options& options)
-    : model_(model), reduce_(options.reduce), decisions_(model, options.decision_bytes) {
+    : model_(model),
+      reduce_(options.reduce),
+      decisions_(model, options.decision_bytes, options.on_decision) {
   const std::size_t values = words_for(model.value_count());
   const std::size_t tasks = words_for(model.tasks().size());
   const std::size_t behaviors = words_for(model.behaviors().size());

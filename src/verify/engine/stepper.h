@@ -63,6 +63,7 @@ class Stepper {
   struct Options {
     bool reduce = false;                                 ///< see ExplorationOptions
     std::size_t decision_bytes = std::size_t{64} << 20;  ///< for remembered decisions
+    DecisionListener on_decision = {};                   ///< may be empty
   };
 
   Stepper(const Model& model, const Options& options);

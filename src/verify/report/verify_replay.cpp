@@ -150,34 +150,6 @@ class ReplayListener final : public RunListener {
   bool has_events_ = false;
 };
 
-/// Notes what the moves of a script are.
-class MoveWords final : public RunListener {
- public:
-  MoveWords(const CompiledCatalog& catalog, std::span<const Microseconds> due,
-            std::vector<std::string>& moves)
-      : catalog_(catalog), due_(due), moves_(moves) {}
-
-  void on_event(const EventRecord& record, const Step* step, const State& /*state*/) override {
-    if (step == nullptr) return;
-    add_due(record.time);
-    moves_.push_back(describe_event(catalog_, record, step));
-  }
-  void on_end(const State& /*state*/) override {
-    add_due(std::numeric_limits<Microseconds>::max());
-  }
-
- private:
-  void add_due(Microseconds until) {
-    for (; !due_.empty() && due_.front() < until; due_ = due_.subspan(1)) {
-      moves_.emplace_back("the queue comes due");
-    }
-  }
-
-  const CompiledCatalog& catalog_;
-  std::span<const Microseconds> due_;  ///< still to come
-  std::vector<std::string>& moves_;
-};
-
 Replay run(const CompiledCatalog& catalog, const Script& script, ReplayListener& listener) {
   CoordinatorOptions options;
   options.explain.displaced = true;
@@ -202,12 +174,6 @@ Replay replay_difference(const CompiledCatalog& catalog, const Script& script, c
   ReplayListener listener(catalog, script, style);
   listener.set_last_move(last_move);
   return run(catalog, script, listener);
-}
-
-RunResult replay_outcome(const CompiledCatalog& catalog, const Witness& witness,
-                         std::vector<std::string>& moves) {
-  MoveWords words(catalog, witness.due, moves);
-  return run_script(catalog, witness.script, {}, words);
 }
 
 }  // namespace cbc

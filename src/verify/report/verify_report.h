@@ -45,10 +45,6 @@ struct Replay {
 [[nodiscard]] Replay replay_difference(const CompiledCatalog& catalog, const Script& script,
                                        const Style& style, Microseconds last_move);
 
-/// Runs the script of an outcome. `moves`: takes what it does, in words.
-[[nodiscard]] RunResult replay_outcome(const CompiledCatalog& catalog, const Witness& witness,
-                                       std::vector<std::string>& moves);
-
 /// What was found out about a property, and its script.
 struct ReportedAnswer {
   const Answer* answer = nullptr;
@@ -168,9 +164,6 @@ struct VerifyResult {
 /// events", "proved for 61 reachable states", "undecided: ended by --max-states 1000; …".
 [[nodiscard]] std::string describe_answer(const VerifyResult& result, const VerifyPart& part,
                                           const Answer& answer);
-
-/// What ended a comparison.
-[[nodiscard]] std::string describe_comparison_end(const VerifyResult& result, ExplorationEnd end);
 
 /// "LIGHT is night and GPS is unavailable"
 [[nodiscard]] std::string describe_part(const CompiledCatalog& catalog, const SituationPart& part);

@@ -54,17 +54,6 @@ std::string title_of(const CompiledCatalog& catalog, const Property& property) {
 
 namespace {
 
-/// As --max-memory takes it: "512M".
-std::string memory_with_unit(std::uint64_t bytes) {
-  constexpr std::string_view units = " KMGT";
-  std::size_t unit = 0;
-  while (bytes % 1024 == 0 && unit + 1 < units.size()) {
-    bytes /= 1024;
-    ++unit;
-  }
-  return std::to_string(bytes) + std::string(unit > 0 ? units.substr(unit, 1) : "");
-}
-
 /// The exploration that decided a property.
 const Exploration& exploration_of(const VerifyPart& part, const Answer& answer) {
   return part.verification.explorations[*answer.exploration];
@@ -78,22 +67,6 @@ std::string describe_violation(const Answer& answer, const Exploration& explorat
   const std::size_t events = answer.verdict.script.size();
   return events == 0 ? "violated in the first state"
                      : "violated after " + quantity(events, "event");
-}
-
-std::string describe_exploration_end(ExplorationEnd end, const ExplorationLimits& limits) {
-  switch (end) {
-    case ExplorationEnd::max_states:
-      return fmt::format("ended by --max-states {}", limits.max_states);
-    case ExplorationEnd::max_memory:
-      return fmt::format("ended by --max-memory {}", memory_with_unit(limits.max_memory));
-    case ExplorationEnd::time_limit:
-      return fmt::format("ended by --time-limit {}", limits.seconds);
-    case ExplorationEnd::too_many:
-      return "ended, as there are more states than can be counted";
-    case ExplorationEnd::stopped:
-      break;
-  }
-  return "interrupted";
 }
 
 bool has_higher_limit(ExplorationEnd end) {
@@ -110,10 +83,6 @@ std::string describe_limit(const VerifyResult& result, const Exploration& explor
   return fmt::format("{}; every state up to depth {} was visited{}; states at each depth: {}",
                      describe_exploration_end(end, result.limits), exploration.depth,
                      has_higher_limit(end) ? " (a higher limit goes on)" : "", counts);
-}
-
-std::string describe_comparison_end(const VerifyResult& result, ExplorationEnd end) {
-  return describe_exploration_end(end, result.limits);
 }
 
 std::string describe_vacuity(const Property& property) {
@@ -454,7 +423,7 @@ void add_compared_events(const VerifyResult& result, Text& text) {
     text.add(table.line({{"decided differently", style.bad}, join(tasks, ", ")}));
     if (comparison.end) {
       add(style.warning, "incomplete",
-          ": " + describe_comparison_end(result, *comparison.end) +
+          ": " + describe_exploration_end(*comparison.end, result.limits) +
               "; there may be further differences");
     }
     return;
@@ -462,7 +431,7 @@ void add_compared_events(const VerifyResult& result, Text& text) {
   if (comparison.explored == Verdict::Result::undecided) {
     return add(style.warning, "undecided",
                fmt::format(": {}; no difference in {}",
-                           describe_comparison_end(result, *comparison.end), counts));
+                           describe_exploration_end(*comparison.end, result.limits), counts));
   }
   if (!comparison.is_compared) {
     return add(style.bad, "nothing was compared", ": no start, stop or finish comes in both");

@@ -316,9 +316,12 @@ GroupId MutantJudge::group_of(const Mutant& mutant) const {
 /// The original is the new catalog of the comparison, so that the script tells what it does.
 void MutantJudge::compare_states(const Mutant& mutant, const CompiledCatalog& changed,
                                  const Limits& limits, MutantVerdict& verdict) const {
+  ComparisonScope scope;
+  scope.differences = ComparisonScope::Differences::expectable;
+  scope.only_first = true;
+  scope.group = group_of(mutant);
   const CatalogComparison found =
-      compare_catalogs(changed, catalog_, assumptions_, exploration_options(limits),
-                       {ComparisonScope::Differences::expectable, group_of(mutant)});
+      compare_catalogs(changed, catalog_, assumptions_, exploration_options(limits), scope);
   if (found.result == Verdict::Result::undecided) return give_up(found.end, verdict);
   if (found.result == Verdict::Result::proved) {
     verdict.result = MutantVerdict::Result::equivalent;

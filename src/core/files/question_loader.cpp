@@ -1,9 +1,8 @@
-#include "verify/question_loader.h"
+#include "core/files/question_loader.h"
 
 #include <cstddef>
 #include <utility>
 
-#include "core/command_line/command_line.h"
 #include "core/files/output.h"
 #include "core/property/property_reader.h"
 #include "core/support/system.h"
@@ -11,8 +10,8 @@
 
 namespace cbc::cli {
 
-std::optional<VerifyQuestions> QuestionLoader::load(const std::vector<std::string>& paths,
-                                                    const std::optional<std::string>& old_catalog) {
+std::optional<Questions> QuestionLoader::load(const std::vector<std::string>& paths,
+                                              const std::optional<std::string>& old_catalog) {
   add_first(paths.front());
   for (std::size_t place = 1; place < paths.size(); ++place) add_path(paths[place]);
   if (old_catalog) {
@@ -54,7 +53,9 @@ void QuestionLoader::refuse(const InputFile& file, const char* what) {
 }
 
 void QuestionLoader::take_catalog(const std::shared_ptr<const CheckedCatalog>& catalog) {
-  if (catalog != nullptr) questions_.catalog = catalog->compiled;
+  if (catalog == nullptr) return;
+  questions_.catalog = catalog->compiled;
+  questions_.source = catalog;
 }
 
 void QuestionLoader::add_properties(const InputFile& file) {

@@ -13,8 +13,9 @@
 namespace cbc::cli {
 
 /// What a command line asks about, checked before anything is explored.
-struct VerifyQuestions {
+struct Questions {
   std::shared_ptr<const CompiledCatalog> catalog;
+  std::shared_ptr<const CheckedCatalog> source;  ///< of `catalog`
   std::vector<std::unique_ptr<const PropertyFile>> files;
   std::shared_ptr<const CompiledCatalog> old_catalog;  ///< to compare with, or null
 };
@@ -24,8 +25,8 @@ class QuestionLoader {
  public:
   /// `paths`: a catalog, which may be missing if the property files name theirs, then property
   /// files; "-" is standard input. `old_catalog`: to compare with. Empty if anything is wrong.
-  [[nodiscard]] std::optional<VerifyQuestions> load(const std::vector<std::string>& paths,
-                                                    const std::optional<std::string>& old_catalog);
+  [[nodiscard]] std::optional<Questions> load(const std::vector<std::string>& paths,
+                                              const std::optional<std::string>& old_catalog);
 
   /// The findings about the files.
   [[nodiscard]] const std::vector<Diagnostic>& findings() const { return files_.findings(); }
@@ -39,7 +40,7 @@ class QuestionLoader {
   void refuse(const InputFile& file, const char* what);
 
   FileSet files_;
-  VerifyQuestions questions_;
+  Questions questions_;
   bool is_given_ = false;                     ///< the catalog, on the command line
   std::optional<std::string> named_catalog_;  ///< path of the one that the property files name
   bool has_failed_ = false;

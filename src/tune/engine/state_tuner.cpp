@@ -1,0 +1,174 @@
+// The decisions of all reachable states are those that an exploration asks for, and as long as all
+// of them stay, so do the states. But an exploration asks about whole sets of environments at once,
+// so a question may change whose new answer no environment allows. So where a question changes, the
+// catalogs are compared event by event, as `cbc verify --same-as` does: if all is alike, the search
+// goes on from there with the questions of the changed catalog. If not, the comparison has a
+// shortest script to the first event that differs.
+
+#include "tune/engine/state_tuner.h"
+
+#include <algorithm>
+#include <mutex>
+#include <set>
+#include <utility>
+
+#include "core/compile/compile.h"
+#include "tune/engine/decision_range.h"
+#include "verify/engine/verification.h"
+
+namespace cbc {
+namespace {
+
+std::vector<bool> find_proved(const CompiledCatalog& catalog, const PropertyFile& file,
+                              const ExplorationOptions& options) {
+  std::vector<bool> proved;
+  if (file.properties.empty()) return proved;
+  for (const Answer& answer : verify_properties(catalog, file, options).answers) {
+    proved.push_back(answer.verdict.result == Verdict::Result::proved);
+  }
+  return proved;
+}
+
+ExplorationOptions of_one_thread(ExplorationOptions options) {
+  options.limits.max_memory /= std::max(1U, std::exchange(options.jobs, 1));
+  options.on_progress = {};
+  return options;
+}
+
+}  // namespace
+
+StateTuner::StateTuner(const Catalog& catalog, const std::vector<TunableNumber>& numbers,
+                       const PropertyFile& file, ExplorationOptions options)
+    : catalog_(catalog),
+      compiled_(compile(catalog)),
+      numbers_(numbers),
+      file_(file),
+      options_(of_one_thread(options)) {
+  std::vector<GroupId> groups;
+  for (std::uint32_t group = 0; group < compiled_.group_count(); ++group)
+    groups.emplace_back(group);
+  present_ = survey(compiled_, groups, options);
+  if (!present_.end && !present_.error) is_proved_ = find_proved(compiled_, file, options);
+}
+
+StateTuner::StateTolerance StateTuner::tolerance(std::size_t number) const {
+  StateTolerance found;
+  find_end(number, false, found);
+  if (!found.end) find_end(number, true, found);
+  return found;
+}
+
+bool StateTuner::is_used(std::size_t number) const {
+  return std::any_of(present_.decisions.begin(), present_.decisions.end(),
+                     [&](const SolvedProblem& decision) {
+                       return uses(compiled_, decision.problem, numbers_[number]);
+                     });
+}
+
+/// Decisions of other groups do not depend on the number.
+std::vector<GroupId> StateTuner::groups_of(const TunableNumber& number) const {
+  std::set<GroupId> groups;
+  for (const TunableNumber::Use& use : number.uses) {
+    groups.insert(compiled_.tasks[compiled_.task_ids[use.task]].group);
+  }
+  return {groups.begin(), groups.end()};
+}
+
+StateSurvey StateTuner::survey(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
+                               const ExplorationOptions& options) const {
+  StateSurvey survey;
+  SolvedProblems decisions;
+  std::mutex mutex;
+  ExplorationOptions listening = options;
+  listening.on_decision = [&](const Problem& problem, const Assignment* answer) {
+    const std::lock_guard lock(mutex);
+    decisions.add(problem, answer);
+  };
+  for (const GroupId group : groups) {
+    const Exploration exploration = explore(catalog, {group}, file_.assumptions, {}, listening);
+    survey.states += exploration.states;
+    survey.transitions += exploration.transitions;
+    survey.end = exploration.end;
+    survey.error = exploration.error;
+    if (survey.end || survey.error) break;
+  }
+  survey.decisions = decisions.take();
+  return survey;
+}
+
+ExplorationOptions StateTuner::further_options() const {
+  ExplorationOptions options = options_;
+  constexpr double least = 0.001;  // 0 would be no limit
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+  double& seconds = options.limits.seconds;
+  if (seconds > 0) seconds = std::max(least, seconds - elapsed.count());
+  return options;
+}
+
+CatalogComparison StateTuner::compare(const CompiledCatalog& changed,
+                                      const std::vector<GroupId>& groups) const {
+  ComparisonScope scope;
+  scope.only_first = true;
+  if (groups.size() == 1) scope.group = groups.front();
+  return compare_catalogs(changed, compiled_, file_.assumptions, further_options(), scope);
+}
+
+/// The event in both catalogs, as the script of the comparison shows it.
+RunDifference StateTuner::describe(const EventDifference& difference,
+                                   const Catalog& changed) const {
+  const Missions missions{&difference.witness.script};
+  const Recording before = record(compile(catalog_), missions, Until::end);
+  const Recording now = record(compile(changed), missions, Until::end);
+  RunDifference result;
+  if (const auto found = find_difference(before, now)) {
+    result = *found;
+    result.failure.reset();  // what the script expects is that there is no difference
+  } else {
+    result.before = before.events.front().back().record;
+    result.now = now.events.front().back().record;
+  }
+  result.path = difference.witness;
+  const std::vector<bool> proved = find_proved(compile(changed), file_, further_options());
+  for (std::size_t place = 0; place < proved.size(); ++place) {
+    if (!is_proved_[place] || proved[place]) continue;
+    result.broken_property = place;
+    break;
+  }
+  return result;
+}
+
+void StateTuner::find_end(std::size_t number, bool upwards, StateTolerance& found) const {
+  const TunableNumber& changed = numbers_[number];
+  const std::vector<GroupId> groups = groups_of(changed);
+  Millionths& end = upwards ? found.tolerance.values.high : found.tolerance.values.low;
+  std::optional<RunDifference>& beyond = upwards ? found.tolerance.above : found.tolerance.below;
+  Catalog catalog = catalog_;
+  CompiledCatalog compiled = compile(catalog);
+  StateSurvey further;
+  const StateSurvey* known = &present_;
+  Millionths value = changed.value;
+  while (true) {
+    // Requests of equal priority that minimum performances tie together are explored in each order;
+    // the first minimum may tie more of them.
+    const bool is_first_minimum =
+        upwards && value == 0 && changed.kind == TunableNumber::Kind::minimum_performance;
+    end = is_first_minimum
+              ? 0
+              : last_unchanged(catalog, changed, value, compiled, known->decisions, upwards);
+    if (end == (upwards ? one_million : 0)) return;
+    value = upwards ? end + 1 : end - 1;
+    set_number(catalog, changed, value);
+    compiled = compile(catalog);
+    const CatalogComparison comparison = compare(compiled, groups);
+    if (const EventDifference* const first = comparison.first_difference()) {
+      beyond = describe(*first, catalog);
+      return;
+    }
+    further = survey(compiled, groups, further_options());
+    found.end = comparison.end ? comparison.end : further.end;
+    if (found.end) return;
+    known = &further;
+  }
+}
+
+}  // namespace cbc

@@ -1,0 +1,94 @@
+// Tolerances over all decisions of all reachable states.
+
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "core/command_line/command_line.h"
+#include "core/files/output.h"
+#include "core/files/question_loader.h"
+#include "core/property/properties.h"
+#include "core/support/wording.h"
+#include "runtime/base/text.h"
+#include "tune/engine/state_tuner.h"
+#include "tune/tune_steps.h"
+
+namespace cbc::cli {
+namespace {
+
+ExplorationLimits limits_of(const TuneOptions& options) {
+  return {options.limits.max_states, options.limits.memory(), options.limits.seconds()};
+}
+
+/// That there are states that were not looked at.
+int complain_of_end(const std::string& file, ExplorationEnd end, const TuneOptions& options) {
+  complain("{}: expected all reachable states to be visited; an exploration was {}", quote(file),
+           describe_exploration_end(end, limits_of(options)));
+  return exit_no;
+}
+
+StateTuner explore_present(const CheckedCatalog& source, const std::vector<TunableNumber>& numbers,
+                           const PropertyFile& file, const TuneOptions& options) {
+  Progress progress("exploring", 1);
+  progress.begin(source.reading.catalog.file);
+  ExplorationOptions of_exploration;
+  of_exploration.limits = limits_of(options);
+  of_exploration.jobs = thread_count(options.jobs);
+  of_exploration.on_progress = [&](const auto& /*groups*/, const ExplorationProgress& so_far) {
+    progress.show(fmt::format(" (depth {}, {})", so_far.depth, quantity(so_far.states, "state")));
+    return true;
+  };
+  return {source.reading.catalog, numbers, file, std::move(of_exploration)};
+}
+
+}  // namespace
+
+int tune_states(const TuneOptions& options) {
+  if (options.paths.empty()) return usage_error("tune", "expected a catalog or a property file");
+  QuestionLoader loader;
+  const std::optional<Questions> questions = loader.load(options.paths, {});
+  if (!questions) return report_unreadable(loader.findings(), options);
+  if (questions->files.size() > 1) {
+    return usage_error("tune", "--all-states takes at most one property file, found {}",
+                       questions->files.size());
+  }
+  const CheckedCatalog& source = *questions->source;
+  if (!has_numbers(source)) return exit_unusable;
+  const auto numbers = choose_numbers(source.reading, options.only);
+  if (!numbers || (options.html && !can_write_output(*options.html))) return exit_unusable;
+  PropertyFile file;
+  if (questions->files.empty()) {
+    file.assumptions = default_assumptions(*source.compiled);
+  } else {
+    file = *questions->files.front();
+  }
+  const StateTuner tuner = explore_present(source, *numbers, file, options);
+  const StateSurvey& survey = tuner.present();
+  const std::string& name = source.reading.catalog.file;
+  if (survey.error) return complain("{}: {}", quote(name), *survey.error);
+  if (survey.end) return complain_of_end(name, *survey.end, options);
+  Recording present;
+  present.decisions = survey.decisions;
+  TuneResult result{source.reading.catalog,
+                    *source.compiled,
+                    *numbers,
+                    present,
+                    {},
+                    {},
+                    {},
+                    {},
+                    TunedStates{survey.states, survey.transitions, file}};
+  if (!options.fail_under.empty()) result.fail_under = degree_of(options.fail_under);
+  const auto found = for_each_number("tuning", result, options,
+                                     [&](std::size_t number) { return tuner.tolerance(number); });
+  for (std::size_t number = 0; number < found.size(); ++number) {
+    if (found[number].end) return complain_of_end(name, *found[number].end, options);
+    result.tuned.push_back({found[number].tolerance, {}, tuner.is_used(number)});
+  }
+  if (const int status = write_reports(result, options); status != exit_ok) return status;
+  return status_of(result);
+}
+
+}  // namespace cbc::cli
