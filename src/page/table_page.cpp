@@ -13,8 +13,8 @@ std::string table_page(std::string_view title, std::string_view body) {
       "<meta name=\"viewport\" content=\"width=device-width\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src {0}; "
       "base-uri 'none'; form-action 'none'\">\n"
-      "<title>{1}</title>\n<style>{2}</style>\n</head>\n<body>\n<h1>{1}</h1>\n{3}"
-      "</body>\n</html>\n",
+      "<title>{1}</title>\n<style>{2}</style>\n</head>\n<body>\n<main>\n<h1>{1}</h1>\n{3}"
+      "</main>\n</body>\n</html>\n",
       tables_style_hash, xml_text(title), tables_style, body);
 }
 

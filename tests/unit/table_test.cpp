@@ -51,7 +51,7 @@ TEST(Table, IsAlsoHtml) {
   Table table(plain_style(), {{}, number_column("n")});
   table.add({"a<b", 1});
   EXPECT_EQ(table.html("counts"),
-            "<table class=\"counts\">\n<tr><th></th><th scope=\"col\">n</th></tr>\n"
+            "<table class=\"counts\">\n<tr><td></td><th scope=\"col\">n</th></tr>\n"
             "<tr><th scope=\"row\">a&lt;b</th><td>1</td></tr>\n</table>\n");
 }
 

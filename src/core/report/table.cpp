@@ -63,8 +63,8 @@ std::string Table::text() const {
 std::string Table::html(std::string_view element_class) const {
   std::string html = concat("<table class=\"", element_class, "\">\n<tr>");
   for (const Column& column : columns_) {
-    html += concat(column.title.empty() ? "<th>" : "<th scope=\"col\">", xml_text(column.title),
-                   "</th>");
+    html += column.title.empty() ? "<td></td>"
+                                 : concat("<th scope=\"col\">", xml_text(column.title), "</th>");
   }
   html += "</tr>\n";
   for (const auto& [row, color] : rows_) {
