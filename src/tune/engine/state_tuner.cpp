@@ -19,14 +19,24 @@
 namespace cbc {
 namespace {
 
-std::vector<bool> find_proved(const CompiledCatalog& catalog, const PropertyFile& file,
-                              const ExplorationOptions& options) {
-  std::vector<bool> proved;
-  if (file.properties.empty()) return proved;
-  for (const Answer& answer : verify_properties(catalog, file, options).answers) {
-    proved.push_back(answer.verdict.result == Verdict::Result::proved);
+/// The answers to all properties, or the limit that ended the search for one.
+struct Answers {
+  std::vector<Verdict::Result> results;  ///< by property
+  std::optional<ExplorationEnd> end;
+};
+
+Answers find_answers(const CompiledCatalog& catalog, const PropertyFile& file,
+                     const ExplorationOptions& options) {
+  Answers answers;
+  if (file.properties.empty()) return answers;
+  const Verification verification = verify_properties(catalog, file, options);
+  for (const Answer& answer : verification.answers) {
+    answers.results.push_back(answer.verdict.result);
   }
-  return proved;
+  for (const Exploration& exploration : verification.explorations) {
+    if (exploration.end) answers.end = exploration.end;
+  }
+  return answers;
 }
 
 ExplorationOptions of_one_thread(ExplorationOptions options) {
@@ -48,7 +58,10 @@ StateTuner::StateTuner(const Catalog& catalog, const std::vector<TunableNumber>&
   for (std::uint32_t group = 0; group < compiled_.group_count(); ++group)
     groups.emplace_back(group);
   present_ = survey(compiled_, groups, options);
-  if (!present_.end && !present_.error) is_proved_ = find_proved(compiled_, file, options);
+  if (present_.end || present_.error) return;
+  Answers answers = find_answers(compiled_, file, options);
+  results_ = std::move(answers.results);
+  present_.end = answers.end;
 }
 
 StateTuner::StateTolerance StateTuner::tolerance(std::size_t number) const {
@@ -128,13 +141,20 @@ RunDifference StateTuner::describe(const EventDifference& difference,
     result.now = now.events.front().back().record;
   }
   result.path = difference.witness;
-  const std::vector<bool> proved = find_proved(compile(changed), file_, further_options());
-  for (std::size_t place = 0; place < proved.size(); ++place) {
-    if (!is_proved_[place] || proved[place]) continue;
-    result.broken_property = place;
-    break;
-  }
   return result;
+}
+
+/// The first property that a change breaks.
+void StateTuner::find_broken(const CompiledCatalog& changed, RunDifference& difference,
+                             std::optional<ExplorationEnd>& end) const {
+  const Answers answers = find_answers(changed, file_, further_options());
+  end = answers.end;
+  for (std::size_t place = 0; place < results_.size(); ++place) {
+    if (results_[place] != Verdict::Result::proved) continue;
+    if (answers.results[place] != Verdict::Result::violated) continue;
+    difference.broken_property = place;
+    return;
+  }
 }
 
 void StateTuner::find_end(std::size_t number, bool upwards, StateTolerance& found) const {
@@ -162,7 +182,7 @@ void StateTuner::find_end(std::size_t number, bool upwards, StateTolerance& foun
     const CatalogComparison comparison = compare(compiled, groups);
     if (const EventDifference* const first = comparison.first_difference()) {
       beyond = describe(*first, catalog);
-      return;
+      return find_broken(compiled, *beyond, found.end);
     }
     further = survey(compiled, groups, further_options());
     found.end = comparison.end ? comparison.end : further.end;

@@ -58,6 +58,8 @@ class StateTuner {
                                           const std::vector<GroupId>& groups) const;
   [[nodiscard]] RunDifference describe(const EventDifference& difference,
                                        const Catalog& changed) const;
+  void find_broken(const CompiledCatalog& changed, RunDifference& difference,
+                   std::optional<ExplorationEnd>& end) const;
   void find_end(std::size_t number, bool upwards, StateTolerance& found) const;
 
   const Catalog& catalog_;
@@ -67,7 +69,7 @@ class StateTuner {
   const ExplorationOptions options_;  ///< of further explorations, but for the time
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   StateSurvey present_;
-  std::vector<bool> is_proved_;  ///< by property
+  std::vector<Verdict::Result> results_;  ///< by property, with the numbers as they are
 };
 
 }  // namespace cbc
