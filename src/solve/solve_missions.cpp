@@ -125,9 +125,12 @@ void point_to_tuning(const std::vector<Mission>& missions, const SolveOptions& o
                   [&](const Mission& mission) { return mission.source.get() == &source; });
   const bool is_text = options.format == "text" && !options.stream.replay;
   if (!is_text || !have_one_catalog || source.text == nullptr) return;
-  const std::string hint =
-      fmt::format("which number of the catalog would have to be what: cbc tune {}",
-                  join(options.paths, " ", printable));
+  const std::string hint = fmt::format(
+      "which number of the catalog would have to be what: cbc tune {}",
+      join(options.paths, " ", [](const std::string& path) {
+        return path.find_first_of(" '\"$&()*;<>?[]\\`|~") == std::string::npos ? printable(path)
+                                                                               : quote(path);
+      }));
   fmt::print("{}\n", wrap_line(hint, columns_for(stdout), 2));
 }
 

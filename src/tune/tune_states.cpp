@@ -40,7 +40,7 @@ StateTuner explore_present(const CheckedCatalog& source, const std::vector<Tunab
     progress.show(fmt::format(" (depth {}, {})", so_far.depth, quantity(so_far.states, "state")));
     return true;
   };
-  return {source.reading.catalog, numbers, file, std::move(of_exploration)};
+  return {source.reading.catalog, numbers, file, of_exploration};
 }
 
 }  // namespace

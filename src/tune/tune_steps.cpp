@@ -42,6 +42,7 @@ std::optional<std::vector<TunableNumber>> choose_numbers(const CatalogReading& r
     }
     if (is_chosen) chosen.push_back(std::move(number));
   }
+  names.reserve(known.size());
   for (const std::string& name : known) names.push_back(name);
   for (const std::string& name : only) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;

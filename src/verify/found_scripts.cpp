@@ -1,5 +1,6 @@
 #include "verify/found_scripts.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
@@ -93,7 +94,8 @@ int replay_one_outcome(const VerifyOptions& options, const CompiledCatalog& cata
 }
 
 int replay_one_difference(const VerifyOptions& options, const CompiledCatalog& catalog,
-                          EventDifference& difference, ReportedComparison& reported) {
+                          const GroupComparison& groups, EventDifference& difference,
+                          ReportedComparison& reported) {
   const Style style = style_of_replays(options);
   ReportedDifference& added = reported.differences.emplace_back();
   added.difference = &difference;
@@ -102,8 +104,10 @@ int replay_one_difference(const VerifyOptions& options, const CompiledCatalog& c
   of_new.file = "difference";
   of_old.file = of_new.file;
   const Microseconds last_move = time_of_last_move(difference);
-  added.with_new = replay_difference(catalog, of_new, style, last_move);
-  added.with_old = replay_difference(*reported.old_catalog, of_old, style, last_move);
+  added.with_new =
+      replay_difference(seen_from(catalog, groups.new_groups), of_new, style, last_move);
+  added.with_old = replay_difference(seen_from(*reported.old_catalog, groups.old_groups), of_old,
+                                     style, last_move);
   if (!options.scripts) return exit_ok;
   const std::size_t number = reported.differences.size();
   const std::string name = number == 1 ? "difference" : fmt::format("difference-{}", number);
@@ -128,7 +132,9 @@ int replay_answers(const VerifyOptions& options, VerifyResult& result) {
       if (!answer.witness) continue;
       answer.witness->script.file = fmt::format("{}:{}: {}", part.file->path, answer.property->line,
                                                 title_of(catalog, *answer.property));
-      reported.replay = replay_witness(catalog, *answer.witness, *answer.property, style);
+      const Exploration& exploration = part.verification.explorations[*answer.exploration];
+      reported.replay = replay_witness(seen_from(catalog, exploration.groups), *answer.witness,
+                                       *answer.property, style);
       int status = check_replay(*answer.witness, reported.replay->result);
       if (status == exit_ok && options.scripts) {
         const std::string name = script_name(*answer.property, *part.file, taken);
@@ -167,7 +173,8 @@ int replay_differences(const VerifyOptions& options, VerifyResult& result) {
   ReportedComparison& reported = *result.same_as;
   for (GroupComparison& group : reported.comparison.groups) {
     for (EventDifference& difference : group.differences) {
-      const int status = replay_one_difference(options, *result.catalog, difference, reported);
+      const int status =
+          replay_one_difference(options, *result.catalog, group, difference, reported);
       if (status != exit_ok) return status;
     }
   }

@@ -28,7 +28,9 @@ Values effect_limit() {
     const bool is_right = text == "lost" || (text.starts_with(degraded) &&
                                              percent().check(text.substr(degraded.size())).empty());
     if (is_right) return {};
-    return "expected 'lost' or a percentage such as 'degraded:60', found " + quote(text);
+    return "expected 'lost', or a percentage with at most one decimal such as 'degraded:60', "
+           "found " +
+           quote(text);
   };
   return values;
 }

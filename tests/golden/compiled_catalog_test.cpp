@@ -69,7 +69,7 @@ TEST_F(CompiledCatalog, GivesSolveNoScript) {
                 "cbc: 'missions/robot.yaml' is a catalog; expected a script here (a catalog goes "
                 "first)\n");
   expect_result(cbc({"solve", "missions/robot.yaml"}), 2, "",
-                "cbc: no event script given to solve on catalog 'missions/robot.yaml'\n");
+                "cbc: no event script given for catalog 'missions/robot.yaml'\n");
   expect_result(cbc({"solve", "robot.yaml", "missions"}), 2, "",
                 "cbc: found no event script in 'missions'\n");
   folder.write("missions/script.yaml", script);

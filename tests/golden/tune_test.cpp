@@ -69,6 +69,13 @@ TEST_F(Tune, WritesTheNumberThatIsAskedFor) {
   EXPECT_EQ(cbc({"solve", "drive.mission.yaml"}).status, 0);
 }
 
+TEST_F(Tune, TakesTheMiddleWhereThereIsNoRoomForTheMargin) {
+  EXPECT_EQ(cbc({"tune", "drive.mission.yaml", "--only", "SLOW:DRIVE", "--margin", "70", "--write"})
+                .status,
+            0);
+  EXPECT_EQ(folder.read("robot.yaml"), with(catalog, "80.50", "31.4999"));
+}
+
 TEST_F(Tune, KeepsAByteOrderMarkAndLineEnds) {
   const std::string text = "\xEF\xBB\xBF" + with(catalog, "measured\n", "measured\r\n");
   folder.write("robot.yaml", text);

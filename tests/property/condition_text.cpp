@@ -55,7 +55,7 @@ class Writer {
     if (!condition.any.empty()) add("any", list_of(conditions(condition.any)));
     std::vector<std::string> all = conditions(condition.all);
     // With a list of faulty behaviors it needs a mapping of its own.
-    if (condition.none_faulty) all.push_back("{faulty: none}");
+    if (condition.none_faulty) all.emplace_back("{faulty: none}");
     if (!all.empty()) add("all", list_of(all));
     return map_of(parts);
   }
@@ -96,6 +96,7 @@ class Writer {
 
   [[nodiscard]] std::string behaviors(const std::vector<BehaviorId>& behaviors) const {
     std::vector<std::string> names;
+    names.reserve(behaviors.size());
     for (const BehaviorId one : behaviors) {
       names.push_back(in_quotes(catalog_.name_of_behavior(one)));
     }
@@ -104,6 +105,7 @@ class Writer {
   [[nodiscard]] std::vector<std::string> conditions(
       const std::vector<StateCondition>& conditions) const {
     std::vector<std::string> texts;
+    texts.reserve(conditions.size());
     for (const StateCondition& part : conditions) texts.push_back(condition(part));
     return texts;
   }

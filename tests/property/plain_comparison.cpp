@@ -246,15 +246,14 @@ class CommonWords {
     for (const auto& set : state.queue) text += "[" + describe(set) + "]";
     return text + " waiting" + describe(state.waiting);
   }
-  /// Nothing if it is about something else.
-  [[nodiscard]] std::optional<std::string> describe(const Happening& event) const {
-    if (event.verb == Verb::fault || event.verb == Verb::repair) return std::nullopt;
+  /// Whether it is about what only one of them has.
+  [[nodiscard]] bool is_about_else(const Happening& event) const {
+    return event.verb == Verb::fault || event.verb == Verb::repair ||
+           (event.task != none && !has_both(event.task)) ||
+           (event.behavior != none && !is_common(event.behavior));
+  }
+  [[nodiscard]] std::string describe(const Happening& event) const {
     const std::string effects = describe_effects(event);
-    if ((event.task != none && !has_both(event.task)) ||
-        (event.behavior != none && !is_common(event.behavior))) {
-      if (effects.empty()) return std::nullopt;
-      return "something else of " + std::string(to_new_ ? "old" : "new") + effects;
-    }
     std::string text(name_of(event.verb));
     text.append(" ").append(name_of(event.origin)).append(" ");
     if (event.task != none) text += name(event.task);
@@ -263,7 +262,6 @@ class CommonWords {
            describe(event.after);
   }
 
- private:
   /// Changes and stops.
   [[nodiscard]] std::string describe_effects(const Happening& event) const {
     std::string text;
@@ -280,6 +278,7 @@ class CommonWords {
     return text;
   }
 
+ private:
   /// Whether both have the behavior, and one of the tasks that it performs here.
   [[nodiscard]] bool is_common(BehaviorId behavior) const {
     const auto values = catalog_.performs[behavior];
@@ -476,9 +475,22 @@ class PairSearch {
       lines.push_back(named(model.catalog(), running));
       return lines;
     }
+    // What events about something else do to what both have, between two events of both.
+    Happening skipped;
+    const auto add_skipped = [&] {
+      const std::string effects = words.describe_effects(std::exchange(skipped, {}));
+      if (!effects.empty()) lines.push_back("something else" + effects);
+    };
     for (const Happening& one : happenings) {
-      if (const auto line = words.describe(one)) lines.push_back(*line);
+      if (words.is_about_else(one)) {
+        skipped.changes.insert(skipped.changes.end(), one.changes.begin(), one.changes.end());
+        skipped.stopped.insert(skipped.stopped.end(), one.stopped.begin(), one.stopped.end());
+        continue;
+      }
+      add_skipped();
+      lines.push_back(words.describe(one));
     }
+    add_skipped();
     lines.push_back(words.describe(end));
     return lines;
   }
@@ -486,7 +498,7 @@ class PairSearch {
   [[nodiscard]] static bool has_decision(const CommonWords& words,
                                          const std::vector<Happening>& happenings) {
     return std::any_of(happenings.begin(), happenings.end(), [&](const Happening& one) {
-      return form_of(one.verb).is_decided && words.describe(one);
+      return form_of(one.verb).is_decided && !words.is_about_else(one);
     });
   }
 

@@ -366,7 +366,7 @@ const oracle::LowerBound lower_bounds[] = {
     {"difference by start_on_request", 4},
     {"difference by reactive_start", 4},
     {"difference by situation", 4},
-    {"difference by initial value", 2},
+    {"difference by initial value", 1},
     {"difference by name", 4},
     {"difference by behavior removed", 4},
     {"difference by order of behaviors", 2},

@@ -245,7 +245,7 @@ class NumberCheck {
 Assignment pick_expected(const Sample& sample, const std::vector<TunableNumber>& numbers,
                          Random& random) {
   constexpr int attempts = 12;
-  const Assignment present = sample.run().values;
+  Assignment present = sample.run().values;
   for (int attempt = 0; attempt < attempts && random.percent(95); ++attempt) {
     Assignment other =
         sample.run_with(random.pick(numbers), random.between(0, whole_degree)).values;

@@ -287,7 +287,7 @@ assume:
       "4:45-46 error wrong-type: 'LAND' must be a priority or a list of priorities, found "
       "nothing\n"
       "5:9-13 error wrong-type: 'stop' must be a list of tasks, found 'LAND'\n"
-      "6:3-11 error unknown-key: unknown key 'succeses' in an assume; did you mean "
+      "6:3-11 error unknown-key: unknown key 'succeses' in 'assume'; did you mean "
       "'successes'?\n"
       "7:13-14 error wrong-type: 'failures' must be true or false, found '3'\n"
       "8:11-13 error invalid-value: 'faults' must be an integer from 0 to 2147483647, found "
@@ -338,7 +338,7 @@ TEST(Assumptions, ReportMistakesAboutFaults) {
             "3:11-12 error missing-key: 'faults' needs 'most': how many behaviors may be faulty at "
             "a time\n");
   EXPECT_EQ(findings_of("{mst: 1, of: [GPS]}"),
-            "3:12-15 error unknown-key: unknown key 'mst' in a faults; did you mean 'most'?\n");
+            "3:12-15 error unknown-key: unknown key 'mst' in 'faults'; did you mean 'most'?\n");
   EXPECT_EQ(findings_of("{most: -1, of: GPS}"),
             "3:18-20 error invalid-value: 'most' must be an integer from 0 to 2147483647, found "
             "'-1'\n"
@@ -663,9 +663,8 @@ TEST(Conditions, MayBeRuledOutByTheAssumptions) {
             "3:27-31 warning impossible-expectation: this can never hold: task 'TALK' is never "
             "requested, as 'start' of 'assume' does not list it\n");
   // What follows from mistakes in the assumptions is not reported.
-  EXPECT_EQ(
-      findings_of_property("reachable: {faulty: [GPS]}", "{fault: 1}"),
-      "1:10-15 error unknown-key: unknown key 'fault' in an assume; did you mean 'faults'?\n");
+  EXPECT_EQ(findings_of_property("reachable: {faulty: [GPS]}", "{fault: 1}"),
+            "1:10-15 error unknown-key: unknown key 'fault' in 'assume'; did you mean 'faults'?\n");
 }
 
 TEST(Conditions, MayBeginWithTheirSituation) {

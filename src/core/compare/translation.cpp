@@ -284,8 +284,8 @@ std::vector<GroupPair> join_groups(const CompiledCatalog& old_catalog,
   return result;
 }
 
-CompiledCatalog without_missing_starts(const CompiledCatalog& catalog,
-                                       const Translation& to_other) {
+CompiledCatalog without_reactive_starts(const CompiledCatalog& catalog,
+                                        const std::function<bool(TaskId)>& is_left_out) {
   struct Storage {
     std::shared_ptr<const void> of_catalog;
     std::vector<CompiledTask> tasks;
@@ -294,12 +294,18 @@ CompiledCatalog without_missing_starts(const CompiledCatalog& catalog,
   storage->of_catalog = catalog.storage;
   storage->tasks.assign(catalog.tasks.begin(), catalog.tasks.end());
   for (TaskId task(0); task < storage->tasks.size(); ++task) {
-    if (to_other.tasks[task] == none) storage->tasks[task].reactive_start = 0;
+    if (is_left_out(task)) storage->tasks[task].reactive_start = 0;
   }
   CompiledCatalog result = catalog;
   result.tasks = storage->tasks;
   result.storage = storage;
   return result;
+}
+
+CompiledCatalog without_missing_starts(const CompiledCatalog& catalog,
+                                       const Translation& to_other) {
+  return without_reactive_starts(catalog,
+                                 [&](TaskId task) { return to_other.tasks[task] == none; });
 }
 
 }  // namespace cbc

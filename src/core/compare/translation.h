@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -72,6 +73,9 @@ struct GroupPair {
                                                  const CompiledCatalog& new_catalog,
                                                  const Translation& to_old);
 
+/// The catalog with other tasks, some of which do not start by themselves.
+[[nodiscard]] CompiledCatalog without_reactive_starts(
+    const CompiledCatalog& catalog, const std::function<bool(TaskId)>& is_left_out);
 /// The catalog without reactive starts of tasks that the other one does not have. It shares the
 /// memory of the catalog.
 [[nodiscard]] CompiledCatalog without_missing_starts(const CompiledCatalog& catalog,

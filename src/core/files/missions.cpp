@@ -38,7 +38,7 @@ std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::s
   const bool has_others = missions_.size() > outdated_ || outdated_ == 0;
   if (has_failed_ || !has_others) return std::nullopt;
   if (missions_.empty() && !needs_none_) {
-    complain("no event script given to solve on catalog {}", quote(display_name(paths.front())));
+    complain("no event script given for catalog {}", quote(display_name(paths.front())));
     return std::nullopt;
   }
   return std::move(missions_);

@@ -307,6 +307,7 @@ class AssumptionReader {
   }
   [[nodiscard]] std::string quoted(const std::vector<std::uint32_t>& variables) const {
     std::vector<std::string> names;
+    names.reserve(variables.size());
     for (const std::uint32_t variable : variables) {
       names.push_back(quote(catalog_.name_of_variable(variable)));
     }

@@ -84,6 +84,14 @@ class ConditionReader {
     return false;
   }
 
+  /// A mapping without entries says nothing, either.
+  bool has_entries(const Node& node, std::string_view what, std::string_view expected) {
+    if (node.kind != Kind::mapping || !node.entries.empty()) return true;
+    reporter_.report(rule::invalid_value, node.range,
+                     concat(quote(what), " must be ", expected, ", found an empty mapping"));
+    return false;
+  }
+
   std::vector<WrittenCondition> read_conditions(const Node& node, std::string_view what,
                                                 std::size_t depth) {
     std::vector<WrittenCondition> conditions;
@@ -93,12 +101,13 @@ class ConditionReader {
   }
 
   std::vector<StateClaims::Running> read_running_part(const Node& node) {
+    constexpr std::string_view expected =
+        "a list of tasks, or a mapping of tasks to behaviors or 'any'";
     std::vector<StateClaims::Running> running;
+    if (!has_entries(node, "running", expected)) return running;
     if (node.kind == Kind::mapping) return read_running(node, names_, reporter_);
     if (node.kind != Kind::sequence) {
-      yaml::report_wrong_type(node, "running",
-                              "a list of tasks, or a mapping of tasks to behaviors or 'any'",
-                              reporter_);
+      yaml::report_wrong_type(node, "running", expected, reporter_);
       return running;
     }
     for (const StateClaims::Task& task : read_tasks(node, "running")) running.push_back({task, {}});
@@ -139,10 +148,9 @@ class ConditionReader {
   }
 
   void read_requested(const Node& node, ConditionClaims& claims) {
-    if (yaml::read_mapping(node, "requested", "a mapping of tasks to priorities", reporter_) ==
-        nullptr) {
-      return;
-    }
+    constexpr std::string_view expected = "a mapping of tasks to priorities";
+    if (!has_entries(node, "requested", expected)) return;
+    if (yaml::read_mapping(node, "requested", expected, reporter_) == nullptr) return;
     yaml::report_duplicate_keys(node, reporter_);
     for (const auto& [key, value] : node.entries) {
       const auto task = names_.find_task(*key, "requested", reporter_, &node);
@@ -154,6 +162,7 @@ class ConditionReader {
   }
 
   void read_situation_part(const Node& node, ConditionClaims& claims) {
+    if (!has_entries(node, "situation", "a mapping of variables to values")) return;
     auto entries = read_possible_situation(node, names_, reporter_);
     if (!entries) return;
     for (SituationEntry& entry : *entries) {

@@ -259,6 +259,7 @@ std::vector<FrozenVariables> find_frozen_variables(const CompiledCatalog& catalo
     FrozenVariables& added = result.emplace_back();
     for (const std::size_t place : frozen) added.variables.push_back(items[place].number);
     std::vector<std::set<std::size_t>> excluding;
+    excluding.reserve(frozen.size());
     for (const std::size_t place : frozen) excluding.push_back(search.excluding(place));
     for (const std::vector<std::uint32_t>& list : {added.variables, all}) {
       if (list.size() < 2 || count_combinations(catalog, list) > most_values_together) continue;

@@ -37,8 +37,8 @@ constexpr const Shape* in_property[] = {&condition};
 }  // namespace
 
 const Shape property_file{"a property file", file_keys, nullptr, in_file};
-const Shape assumptions{"an assume", assumption_keys, &property_file, in_assumptions};
-const Shape faults{"a faults", fault_keys, &assumptions};
+const Shape assumptions{"'assume'", assumption_keys, &property_file, in_assumptions};
+const Shape faults{"'faults'", fault_keys, &assumptions};
 const Shape property{"a property", property_keys, &property_file, in_property, true, {}, true};
 const Shape condition{"a condition", condition_keys, &property, {}, false, {}, true};
 

@@ -37,7 +37,9 @@ std::string junit_case(const TestCase& test, const std::string& file) {
   const std::string message = xml_text(test.message);
   switch (test.status) {
     case TestCase::Status::passed:
-      return text + "/>\n";
+      return text + (message.empty()
+                         ? "/>\n"
+                         : fmt::format("><system-out>{}</system-out></testcase>\n", message));
     case TestCase::Status::skipped:
       return text + fmt::format("><skipped message=\"{}\"/></testcase>\n", message);
     case TestCase::Status::failed:

@@ -32,7 +32,7 @@ struct TestCase {
   std::string name = {};
   Status status = Status::passed;
   std::string type = {};     ///< of what is wrong: "expectation"
-  std::string message = {};  ///< what is wrong, or why the case was skipped
+  std::string message = {};  ///< what is wrong or to be noticed, or why the case was skipped
   std::string details = {};  ///< further lines about that
   std::vector<Annotation> annotations = {};
 };

@@ -201,6 +201,7 @@ std::string list_variables(const CompiledCatalog& catalog,
                            const std::vector<std::uint32_t>& variables) {
   constexpr std::size_t most_names = 5;
   std::vector<std::string> names;
+  names.reserve(variables.size());
   for (const std::uint32_t variable : variables) {
     names.push_back(printable(catalog.name_of_variable(variable)));
   }

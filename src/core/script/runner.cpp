@@ -85,6 +85,7 @@ void check_running(const Expectation::Running& expected, const CompiledCatalog& 
                            });
   if (holds) return;
   std::vector<std::string> names;
+  names.reserve(behaviors.size());
   for (const std::uint32_t one : behaviors) names.push_back(quote(catalog.behavior_names[one]));
   const std::string wanted = names.empty() ? "" : " with " + list_with_or(names);
   mismatches.push_back(fmt::format("expected task {} to run{}, but {}",

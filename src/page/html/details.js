@@ -23,7 +23,8 @@ function sentenceElements(run, number) {
 function failureElement(run, failure) {
   const place = `${run.data.script}:${failure.line}`;
   const line = html('p', 'alarm', `failed expectation: ${failure.message} (${place})`);
-  line.append(html('span', 'why', ' \u2013 cbc tune says which number of the catalog would have to be what'));
+  const command = `cbc tune ${run.data.catalog} ${run.data.script}`;
+  line.append(html('span', 'why', breakable(` \u2013 which number of the catalog would have to be what: ${command}`)));
   return line;
 }
 

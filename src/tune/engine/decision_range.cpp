@@ -24,6 +24,7 @@
 #include <memory>
 #include <numeric>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "core/compile/compile.h"
@@ -34,9 +35,9 @@ namespace {
 
 class RangeSearch {
  public:
-  RangeSearch(const Catalog& catalog, const TunableNumber& number, const CompiledCatalog& recorded,
+  RangeSearch(Catalog catalog, const TunableNumber& number, const CompiledCatalog& recorded,
               const std::vector<SolvedProblem>& decisions)
-      : catalog_(catalog), number_(number), recorded_(recorded) {
+      : catalog_(std::move(catalog)), number_(number), recorded_(recorded) {
     std::set<std::pair<TaskId, std::uint32_t>> pairs;
     for (const TunableNumber::Use& use : number.uses) {
       tasks_.insert(recorded_.task_ids[use.task]);

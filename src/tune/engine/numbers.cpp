@@ -41,6 +41,7 @@ std::vector<TunableNumber> find_numbers(const CatalogReading& reading) {
     if (number != nullptr) number->uses.push_back({none, 0, task});
   }
   std::vector<TunableNumber> numbers;
+  numbers.reserve(by_place.size() + 1);
   for (auto& [place, number] : by_place) numbers.push_back(std::move(number));
   if (!unwritten.uses.empty()) numbers.push_back(std::move(unwritten));
   return numbers;

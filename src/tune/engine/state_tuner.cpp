@@ -48,7 +48,7 @@ ExplorationOptions of_one_thread(ExplorationOptions options) {
 }  // namespace
 
 StateTuner::StateTuner(const Catalog& catalog, const std::vector<TunableNumber>& numbers,
-                       const PropertyFile& file, ExplorationOptions options)
+                       const PropertyFile& file, const ExplorationOptions& options)
     : catalog_(catalog),
       compiled_(compile(catalog)),
       numbers_(numbers),

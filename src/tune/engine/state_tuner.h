@@ -35,7 +35,7 @@ class StateTuner {
   /// further ones have one thread each, their part of the memory, and the time that is left. The
   /// catalog, which has no errors, the numbers and the file must outlive the tuner.
   StateTuner(const Catalog& catalog, const std::vector<TunableNumber>& numbers,
-             const PropertyFile& file, ExplorationOptions options);
+             const PropertyFile& file, const ExplorationOptions& options);
 
   /// With the numbers as they are. Nothing else may be asked if a limit ended it.
   [[nodiscard]] const StateSurvey& present() const { return present_; }

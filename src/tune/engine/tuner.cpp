@@ -10,6 +10,7 @@
 #include "tune/engine/tuner.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <numeric>
 #include <stdexcept>
@@ -28,10 +29,10 @@ Millionths apart(Millionths a, Millionths b) { return a > b ? a - b : b - a; }
 }  // namespace
 
 Millionths Interval::nearest(Millionths value, Millionths margin) const {
-  const Millionths least = low == 0 ? 0 : low + margin;
-  const Millionths most = high == one_million || high < margin ? high : high - margin;
+  const std::int64_t least = low == 0 ? 0 : std::int64_t{low} + margin;
+  const std::int64_t most = high == one_million ? high : std::int64_t{high} - margin;
   if (least > most) return std::midpoint(low, high);
-  return std::clamp(value, least, most);
+  return static_cast<Millionths>(std::clamp<std::int64_t>(value, least, most));
 }
 
 std::optional<Millionths> Tolerance::distance(Millionths value) const {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/report/table.h"
+#include "core/report/words.h"
 #include "core/support/wording.h"
 #include "page/table_page.h"
 #include "runtime/base/text.h"
@@ -62,6 +63,14 @@ std::string failures_of(const TuneResult& result) {
 
 std::string tune_to_html(const TuneResult& result) {
   std::string html = failures_of(result);
+  if (result.states) {
+    const PropertyFile& file = result.states->file;
+    html +=
+        fmt::format("<p>{}; {}, {}</p>\n",
+                    xml_text(describe_assumptions(result.catalog, {file.assumptions, file.path})),
+                    quantity(result.states->states, "state"),
+                    quantity(result.present.decisions.size(), "different decision"));
+  }
   html += fmt::format(
       "<h2>Tolerances</h2>\n<p>The most fragile first. A bar is what the number may be while {}; "
       "the "

@@ -19,6 +19,15 @@ std::string lines_of(const std::vector<std::uint32_t>& lines) {
   return join(lines, ", ", [](std::uint32_t line) { return std::to_string(line); });
 }
 
+/// "the numbers in lines 6, 12"; line 0 stands for the default that is written nowhere.
+std::string numbers_in(const std::vector<std::uint32_t>& lines) {
+  if (lines == std::vector<std::uint32_t>{0}) return "the default suitability";
+  if (lines.back() == 0) {
+    return numbers_in({lines.begin(), lines.end() - 1}) + " and the default suitability";
+  }
+  return (lines.size() == 1 ? "the number in line " : "the numbers in lines ") + lines_of(lines);
+}
+
 /// What is decided in place of what, "in the words of solve".
 std::string describe_instead(const TuneResult& result, const RunDifference& difference) {
   if (!difference.before) return "it happens";
@@ -46,14 +55,10 @@ std::string describe_instead(const TuneResult& result, const RunDifference& diff
   return join(parts, ", ") + (others > 0 ? fmt::format(" and {} more", others) : "");
 }
 
-/// The event in place of others, after the moves that lead to it.
+/// The event, after the moves that lead to it, and what it does in place of what.
 std::string describe_of_state(const TuneResult& result, const RunDifference& difference) {
-  std::vector<std::string> moves = moves_to(result, difference);
-  const std::string last = moves.empty() ? std::string() : std::move(moves.back());
-  if (!moves.empty()) moves.pop_back();
-  std::string text = last;
-  if (!moves.empty()) text += " after " + join(moves, ", then ");
-  text += ": " + describe_instead(result, difference);
+  std::string text =
+      join(moves_to(result, difference), ", then ") + ": " + describe_instead(result, difference);
   if (!difference.broken_property) return text;
   const PropertyFile& file = result.states->file;
   return text + fmt::format("; then the property in {}:{} does not hold", printable(file.path),
@@ -205,9 +210,9 @@ std::vector<std::string> describe_unaffected(const TuneResult& result) {
     lines.push_back(
         fmt::format("{} may have any value from 0 to 100", quantity(unaffected, "number")));
   }
-  if (!unused.empty()) lines.push_back("nothing has the number in line " + lines_of(unused));
+  if (!unused.empty()) lines.push_back("nothing has " + numbers_in(unused));
   if (!undecisive.empty()) {
-    lines.push_back("no decision of any state uses the number in line " + lines_of(undecisive));
+    lines.push_back("no decision of any state uses " + numbers_in(undecisive));
   }
   return lines;
 }
@@ -220,6 +225,7 @@ std::vector<std::size_t> fragile_first(const TuneResult& result) {
   }
   std::sort(found.begin(), found.end());
   std::vector<std::size_t> numbers;
+  numbers.reserve(found.size());
   for (const auto& [distance, number] : found) numbers.push_back(number);
   return numbers;
 }

@@ -69,18 +69,28 @@ void AnswerComparison::compare_events(const std::vector<Happening>& ours,
                                       const std::vector<Happening>& theirs) {
   std::size_t our_place = 0;
   std::size_t their_place = 0;
-  // What an event about something else does to what both have is a difference.
-  const auto skip = [&](const std::vector<Happening>& events, bool is_new, std::size_t& place) {
+  // Events about something else do not count, but what they do to what both have does: all of those
+  // between two events of both together.
+  const auto skip = [&](const std::vector<Happening>& events, bool is_new, std::size_t& place,
+                        Happening& together) {
+    together.changes.clear();
+    together.stopped.clear();
     for (; place < events.size() && !is_in_both(events[place], is_new); ++place) {
-      const Happening nothing;
-      note_lone_changes(events[place], is_new, nothing);
-      is_new ? compare_stops(events[place], nothing) : compare_stops(nothing, events[place]);
+      const Happening& skipped = events[place];
+      together.changes.insert(together.changes.end(), skipped.changes.begin(),
+                              skipped.changes.end());
+      together.stopped.insert(together.stopped.end(), skipped.stopped.begin(),
+                              skipped.stopped.end());
     }
     return place < events.size();
   };
   for (;; ++our_place, ++their_place) {
-    const bool has_ours = skip(ours, true, our_place);
-    const bool has_theirs = skip(theirs, false, their_place);
+    const bool has_ours = skip(ours, true, our_place, our_skipped_);
+    const bool has_theirs = skip(theirs, false, their_place, their_skipped_);
+    if (differences_ == Differences::all) {
+      compare_changes(our_skipped_, their_skipped_);
+      compare_stops(our_skipped_, their_skipped_);
+    }
     if (!has_ours && !has_theirs) return;
     if (has_ours && has_theirs && is_same_event(ours[our_place], theirs[their_place])) {
       compare_answers(ours[our_place], theirs[their_place]);

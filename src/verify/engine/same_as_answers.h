@@ -84,6 +84,8 @@ class AnswerComparison {
   const bool allow_missing_;
   bool with_lines_ = false;
   std::vector<Note> notes_;
+  Happening our_skipped_;
+  Happening their_skipped_;
   bool is_alike_ = true;
   bool is_compared_ = false;
 };

@@ -197,6 +197,7 @@ Verification verify_properties(const CompiledCatalog& catalog, const PropertyFil
     task.places.push_back(place);
   }
   std::vector<ExplorationTask> tasks;
+  tasks.reserve(by_scope.size());
   for (auto& [scope, task] : by_scope) tasks.push_back(std::move(task));
   result.explorations = explore_all(catalog, file.assumptions, tasks, options);
   for (std::size_t explored = 0; explored < tasks.size(); ++explored) {

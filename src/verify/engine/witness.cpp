@@ -18,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include "core/compare/translation.h"
 #include "core/script/script.h"
 #include "runtime/base/text.h"
 #include "verify/engine/model.h"
@@ -255,6 +256,12 @@ Script begin_script(const CompiledCatalog& catalog, const Assumptions& assumptio
 }
 
 }  // namespace
+
+CompiledCatalog seen_from(const CompiledCatalog& catalog, const std::vector<GroupId>& groups) {
+  return without_reactive_starts(catalog, [&](TaskId task) {
+    return !std::binary_search(groups.begin(), groups.end(), catalog.tasks[task].group);
+  });
+}
 
 Step step_of(const CompiledCatalog& catalog, const Assumptions& assumptions, const Move& move) {
   Step step;

@@ -20,6 +20,11 @@ struct Witness {
   std::vector<Microseconds> due;      ///< when the path lets the queue come due
 };
 
+/// The catalog as an exploration of these groups sees it: in others nothing starts by itself. So
+/// scripts show only what is of these groups.
+[[nodiscard]] CompiledCatalog seen_from(const CompiledCatalog& catalog,
+                                        const std::vector<GroupId>& groups);
+
 /// The move as a step of a script. Not for Move::Kind::due, which the clock makes. A change of
 /// several variables lists all that may change with them.
 [[nodiscard]] Step step_of(const CompiledCatalog& catalog, const Assumptions& assumptions,

@@ -28,9 +28,9 @@ TestCase case_of(const VerifyResult& result, const VerifyPart& part,
   const std::string title = title_of(*result.catalog, property);
   TestCase test{fmt::format("line {}: {}", property.line, title)};
   if (answer.verdict.is_vacuous) {
+    test.message = "proved only since " + describe_vacuity(property);
     test.annotations.push_back({Severity::warning, place_of_line(property.line),
-                                "cbc property proved vacuously",
-                                title + "\nproved only since " + describe_vacuity(property)});
+                                "cbc property proved vacuously", title + "\n" + test.message});
   }
   if (answer.verdict.result == Verdict::Result::proved) return test;
   const bool is_violated = answer.verdict.result == Verdict::Result::violated;
@@ -210,7 +210,8 @@ std::string verify_to_html(const VerifyResult& result) {
       for (const std::string& line : reported.replay->idle_queue) item.description += "; " + line;
       const Script& script = answer.witness->script;
       page.begin_run(catalog, script);
-      page.end_run(run_script(catalog, script, {}, page), {});
+      const Exploration& exploration = part.verification.explorations[*answer.exploration];
+      page.end_run(run_script(seen_from(catalog, exploration.groups), script, {}, page), {});
     }
   }
   page.list_properties(properties);

@@ -376,8 +376,10 @@ void add_violation(const VerifyResult& result, const VerifyPart& part,
 void add_end(const VerifyResult& result, const Exploration& exploration, Text& text) {
   const std::string groups =
       join(exploration.groups, ", ", [](GroupId group) { return std::to_string(group); });
-  const std::string title = fmt::format(
-      "exploration of {} {}", exploration.groups.size() == 1 ? "group" : "groups", groups);
+  const std::string title =
+      groups.empty() ? "exploration of the situation alone"
+                     : fmt::format("exploration of {} {}",
+                                   exploration.groups.size() == 1 ? "group" : "groups", groups);
   const std::string_view color = exploration.decided ? text.style().faint : text.style().warning;
   text.line("");
   text.line(text.style().paint(color, title) + ": " +
