@@ -39,4 +39,7 @@ if(BUILD_SHARED_LIBS OR CBC_STATIC)
   set(CPACK_PROJECT_CONFIG_FILE "${CMAKE_CURRENT_SOURCE_DIR}/src/package/debian/refuse.cmake")
 endif()
 
+# The component `python` has a package of its own: debian_python.cmake.
+set(CPACK_INSTALL_CMAKE_PROJECTS "${CMAKE_CURRENT_BINARY_DIR};cbc;Unspecified;/")
+
 include(CPack)

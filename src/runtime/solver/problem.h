@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -33,12 +34,14 @@ struct SearchBudget {
   std::uint64_t max_nodes = 0;     ///< 0: no limit
   std::uint64_t nodes_before = 0;  ///< of earlier searches
   std::optional<std::chrono::steady_clock::time_point> deadline;
+  const std::function<bool()>* is_stopped = nullptr;  ///< true: out of time; null: none
 
   /// `nodes`: of the present search.
   [[nodiscard]] bool has_nodes_left(std::uint64_t nodes) const {
     return max_nodes == 0 || nodes_before + nodes < max_nodes;
   }
   [[nodiscard]] bool is_out_of_time() const {
+    if (is_stopped != nullptr && (*is_stopped)()) return true;
     return deadline && std::chrono::steady_clock::now() >= *deadline;
   }
   [[nodiscard]] bool is_spent(std::uint64_t nodes) const {

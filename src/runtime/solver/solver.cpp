@@ -39,6 +39,7 @@ Solver::Solver(const CompiledCatalog& catalog, const SearchOptions& options,
 SearchResult Solver::solve(const Problem& problem, Assignment& solution) {
   budget_.max_nodes = options_.max_nodes;
   budget_.nodes_before = 0;
+  budget_.is_stopped = options_.is_stopped ? &options_.is_stopped : nullptr;
   budget_.deadline.reset();
   if (options_.time_limit.count() > 0) {
     budget_.deadline = std::chrono::steady_clock::now() + options_.time_limit;

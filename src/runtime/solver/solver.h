@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct SearchOptions {
   // The limits of Solver::solve, together with the calls of solve_again after it.
   std::uint64_t max_nodes = 0;              ///< decisions; 0: no limit
   std::chrono::microseconds time_limit{0};  ///< 0: no limit
+  /// Asked again and again, at least as often as the clock is looked at; true ends the search as if
+  /// its time were over. It may be empty. For programs in which somebody may press Ctrl-C.
+  std::function<bool()> is_stopped;
   /// The paper's m: take the best of the first m solutions, found depth first, with tasks in
   /// catalog order and values by rank. 0: branch and bound to the proven optimum.
   std::uint64_t max_solutions = 0;

@@ -1,0 +1,130 @@
+"""Results in JSON as values that never change."""
+
+from __future__ import annotations
+
+import difflib
+from typing import Any, Dict, Iterator, Tuple
+
+from ._errors import UnknownName
+
+
+def freeze(value: Any) -> Any:
+    """A JSON value with records for objects, and tuples for lists."""
+    if isinstance(value, dict):
+        return Record(value)
+    if isinstance(value, list):
+        return tuple(freeze(item) for item in value)
+    return value
+
+
+def thaw(value: Any) -> Any:
+    """What freeze() made it of."""
+    if isinstance(value, Record):
+        return value.to_json()
+    if isinstance(value, tuple):
+        return [thaw(item) for item in value]
+    return value
+
+
+class Record:
+    """A JSON object: record.name or record["name"]. It has no other names than those of the object,
+    to_json and, of a report, passed."""
+
+    __slots__ = ("_members",)
+    _members: Dict[str, Any]
+
+    def __init__(self, members: Dict[str, Any]) -> None:
+        frozen = {name: freeze(value) for name, value in members.items()}
+        object.__setattr__(self, "_members", frozen)
+
+    def __getitem__(self, name: str) -> Any:
+        if name in self._members:
+            return self._members[name]
+        if not isinstance(name, str):
+            raise TypeError(f"expected the name of a member as a str, found {type(name).__name__}")
+        near = next(iter(difflib.get_close_matches(name, self._members, 1)), None)
+        hint = f"; did you mean {near!r}?" if near else f", only {', '.join(self._members)}"
+        raise UnknownName(f"there is no member {name!r}{hint}", name, near)
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):  # Python asks for many of these
+            raise AttributeError(name)
+        try:
+            return self[name]
+        except UnknownName as error:
+            raise AttributeError(str(error)) from None
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError("records never change")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError("records never change")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._members)
+
+    def __len__(self) -> int:
+        return len(self._members)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._members
+
+    def __dir__(self) -> Any:
+        return [*super().__dir__(), *filter(str.isidentifier, self._members)]
+
+    def __eq__(self, other: object) -> bool:
+        if type(self) is not type(other):
+            return NotImplemented
+        return self._key() == other._key()  # type: ignore[attr-defined]
+
+    def __hash__(self) -> int:
+        return hash(frozenset(self._members.items()))
+
+    def _key(self) -> Tuple[Any, ...]:
+        return (self._members,)
+
+    def __copy__(self) -> Record:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Record:
+        return self
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return type(self), (self.to_json(),)
+
+    def __repr__(self) -> str:
+        shown = []
+        for name, value in self._members.items():
+            if isinstance(value, (tuple, Record)):
+                shown.append(f"{name}=[{len(value)}]" if isinstance(value, tuple) else f"{name}=...")
+            else:
+                text = repr(value)
+                shown.append(f"{name}={text if len(text) < 40 else text[:36] + '...'}")
+        more = ", ..." if len(shown) > 6 else ""
+        return f"<Record {', '.join(shown[:6])}{more}>"
+
+    def to_json(self) -> Dict[str, Any]:
+        """The object as dicts and lists of its own."""
+        return {name: thaw(value) for name, value in self._members.items()}
+
+
+class Report(Record):
+    """The result of a check: what `--format json` writes, and whether the exit status was 0."""
+
+    __slots__ = ("passed",)
+    passed: bool
+
+    def __init__(self, members: Dict[str, Any], passed: bool) -> None:
+        super().__init__(members)
+        object.__setattr__(self, "passed", passed)
+
+    def _key(self) -> Tuple[Any, ...]:
+        return self._members, self.passed
+
+    __hash__ = Record.__hash__
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return type(self), (self.to_json(), self.passed)
+
+    def __repr__(self) -> str:
+        return f"<Report {self._members.get('schema')}: {'passed' if self.passed else 'not passed'}>"

@@ -1,0 +1,156 @@
+#include "python/module/explanations.h"
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "core/report/event_json.h"
+#include "core/report/explanation_words.h"
+#include "core/report/reason_words.h"
+#include "core/report/words.h"
+#include "runtime/base/text.h"
+
+namespace cbc::python {
+namespace {
+
+void add_line(std::string& text, std::string_view line) {
+  if (!text.empty()) text += '\n';
+  text += line;
+}
+
+void add(std::string& text, const Sentences& sentences, std::string_view indent) {
+  add_line(text, concat(indent, sentences.first));
+  for (const std::string& sentence : sentences.more) {
+    add_line(text, concat(indent, "  ", sentence));
+  }
+}
+
+/// Takes the events of a call that is repeated, with the state after each.
+class Repetition final : public EventListener {
+ public:
+  using Take = std::function<void(const EventRecord& record, const Step* step, const State& state)>;
+
+  Repetition(const Moment& moment, const ExplanationOptions& explain, Take take)
+      : moment_(moment), take_(std::move(take)) {
+    CoordinatorOptions options = to_internal(moment.options);
+    options.find_conflicts = true;
+    options.explain = explain;
+    Coordinator coordinator(*moment.catalog->compiled, options, *this);
+    coordinator_ = &coordinator;
+    coordinator.resume(moment.before);
+    (void)make_call(coordinator, moment.call);  // it was ok the first time
+  }
+
+ private:
+  void on_event(const EventRecord& record) override {
+    const auto& step = moment_.call.step;
+    const bool is_asked_for = record.origin == Origin::script && step;
+    take_(record, is_asked_for ? &*step : nullptr, coordinator_->state());
+  }
+
+  const Moment& moment_;
+  const Take take_;
+  const Coordinator* coordinator_ = nullptr;
+};
+
+std::string describe_rejected(const CompiledCatalog& catalog, const EventRecord& record) {
+  std::string text;
+  add(text,
+      {place_of(catalog, record) + " was rejected:", describe_rejection(catalog, record)}, "");
+  return text;
+}
+
+void repeat(const HandledEvent& event, const Repetition::Take& take) {
+  ExplanationOptions explain;
+  explain.displaced = true;
+  const Repetition repetition(
+      *event.moment, explain,
+      [&](const EventRecord& record, const Step* step, const State& state) {
+        if (record.index == event.record.index) take(record, step, state);
+      });
+}
+
+}  // namespace
+
+std::string explain_event(const HandledEvent& event) {
+  const CompiledCatalog& catalog = *event.moment->catalog->compiled;
+  std::string text;
+  repeat(event, [&](const EventRecord& record, const Step* step, const State& state) {
+    if (record.outcome == Outcome::rejected) {
+      text = describe_rejected(catalog, record);
+      return;
+    }
+    text = event_and_outcome(catalog, record, step);
+    const std::string note = describe_note(catalog, record, state);
+    if (!note.empty()) add(text, {note, {}}, "  ");
+    for (const Displacement& displaced : record.explanation.displaced) {
+      add(text, describe_displacement(catalog, record, displaced, state), "  ");
+    }
+  });
+  return text;
+}
+
+std::string event_to_json(const HandledEvent& event) {
+  const CompiledCatalog& catalog = *event.moment->catalog->compiled;
+  std::string text;
+  repeat(event, [&](const EventRecord& record, const Step* step, const State& state) {
+    append_event(text, catalog, record, step, state, {});
+  });
+  return text;
+}
+
+namespace {
+
+/// A sentence where no event has decided anything.
+std::string explain_undecided(const Session& session, TaskId task) {
+  const CompiledCatalog& catalog = *session.catalog()->compiled;
+  const State& state = session.state();
+  UnexpectedTasks unexpected;
+  unexpected.group = catalog.tasks[task].group;
+  unexpected.tasks = {task};
+  const std::uint32_t place = catalog.tasks[task].catalog_index;
+  if (state.queue().has(place)) {
+    unexpected.why_unmet.kind = WhyUnmet::Kind::due;
+    unexpected.why_unmet.queued_task = task;
+    unexpected.why_unmet.due = state.queue().due(place);
+  } else if (state.is_running(task)) {
+    return concat(task_name(catalog, task), " runs with ",
+                  behavior_name(catalog, state.behavior(task)),
+                  "; no event has decided about it since the state was restored");
+  }
+  std::string text;
+  add(text, describe_unmet(catalog, unexpected, state), "");
+  return text;
+}
+
+}  // namespace
+
+std::string explain_present(const Session& session, const Subject& subject) {
+  const CompiledCatalog& catalog = *session.catalog()->compiled;
+  const TaskId task =
+      subject.is_task
+          ? catalog.task_ids[subject.catalog_index]
+          : catalog.task_of(catalog.performs[catalog.behavior_ids[subject.catalog_index]].front());
+  const GroupId group = catalog.tasks[task].group;
+  const auto& rejection = session.rejection_of(group);
+  if (subject.is_task && rejection && rejection->record.task == task) {
+    return explain_event(*rejection);
+  }
+  const std::shared_ptr<const Moment> moment = session.decision_of(group);
+  if (moment == nullptr) return explain_undecided(session, task);
+  ExplanationOptions explain;
+  explain.why = {subject};
+  std::string text;
+  const Repetition repetition(
+      *moment, explain, [&](const EventRecord& record, const Step* step, const State& state) {
+        if (record.outcome != Outcome::accepted || record.search->group != group) return;
+        text = concat("at ", format_time(record.time), " s, ",
+                      event_and_outcome(catalog, record, step));
+        for (const Why& why : record.explanation.why) {
+          add(text, describe_why(catalog, record, why, state), "  ");
+        }
+      });
+  return text;
+}
+
+}  // namespace cbc::python

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "python/module/session.h"
+#include "runtime/coordinator/record.h"
+
+// Answers to questions about events that have happened, found by repeating them: see Moment. None
+// of these needs the GIL.
+
+namespace cbc::python {
+
+/// Why an event was rejected, or what it displaced and why, in the words of `cbc solve`. The first
+/// line says what happened; reasons follow, indented.
+[[nodiscard]] std::string explain_event(const HandledEvent& event);
+
+/// The event as `cbc solve --format json` writes it.
+[[nodiscard]] std::string event_to_json(const HandledEvent& event);
+
+/// Why a task or behavior is as it is now, in the words of `cbc solve --why`.
+[[nodiscard]] std::string explain_present(const Session& session, const Subject& subject);
+
+}  // namespace cbc::python

@@ -1,0 +1,143 @@
+#include "python/module/session.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/script/runner.h"
+#include "runtime/base/text.h"
+
+namespace cbc::python {
+
+CoordinatorOptions to_internal(const SessionOptions& options) {
+  CoordinatorOptions internal;
+  internal.reactive_delay = options.reactive_delay;
+  internal.timeouts = options.timeouts;
+  internal.search.max_nodes = options.max_nodes;
+  internal.search.time_limit = std::chrono::microseconds(options.time_limit);
+  internal.find_conflicts = false;  // whoever asks why finds them
+  return internal;
+}
+
+Coordinator::Status make_call(Coordinator& coordinator, const Call& call) {
+  using Status = Coordinator::Status;
+  coordinator.restart_count();
+  if (call.time) {
+    if (const Status status = coordinator.advance_to(*call.time); status != Status::ok) {
+      return status;
+    }
+  }
+  return call.step ? coordinator.handle(event_of(*call.step)) : coordinator.settle();
+}
+
+Session::Session(std::shared_ptr<const Catalog> catalog, const SessionOptions& options)
+    : catalog_(std::move(catalog)),
+      options_(options),
+      decisions_(catalog_->compiled->group_count()),
+      rejections_(catalog_->compiled->group_count()) {
+  make_coordinator();
+}
+
+std::unique_ptr<Session> Session::clone() const {
+  auto other = std::make_unique<Session>(catalog_, options_);
+  other->resume(snapshot());
+  other->decisions_ = decisions_;
+  other->rejections_ = rejections_;
+  return other;
+}
+
+void Session::make_coordinator() {
+  CoordinatorOptions internal = to_internal(options_);
+  internal.is_stopped = [this] {
+    was_stopped_ = was_stopped_ || (is_stopped_ != nullptr && (*is_stopped_)());
+    return was_stopped_;
+  };
+  internal.search.is_stopped = internal.is_stopped;
+  EventListener& listener = *this;  // nobody else may know that it is one
+  coordinator_.emplace(*catalog_->compiled, internal, listener);
+}
+
+void Session::begin(const Situation& situation) {
+  coordinator_->begin(situation.availability, situation.variables);
+}
+
+void Session::resume(const Snapshot& snapshot) {
+  options_.reactive_delay = snapshot.reactive_delay;
+  options_.timeouts = snapshot.timeouts;
+  make_coordinator();
+  coordinator_->resume(snapshot);
+  outcome_ = snapshot.outcome;
+  decisions_.assign(decisions_.size(), nullptr);
+  rejections_.assign(rejections_.size(), std::nullopt);
+}
+
+Snapshot Session::snapshot() const {
+  Snapshot snapshot = coordinator_->snapshot();
+  snapshot.outcome = outcome_;
+  return snapshot;
+}
+
+std::optional<std::vector<HandledEvent>> Session::run(Call call, const IsStopped& is_stopped) {
+  using Status = Coordinator::Status;
+  moment_ =
+      std::make_shared<const Moment>(Moment{catalog_, options_, snapshot(), std::move(call)});
+  events_.clear();
+  is_stopped_ = &is_stopped;
+  was_stopped_ = false;
+  Status status = Status::ok;
+  try {
+    status = make_call(*coordinator_, moment_->call);
+  } catch (...) {
+    go_back(*moment_);
+    throw;
+  }
+  is_stopped_ = nullptr;
+  if (was_stopped_) {
+    go_back(*moment_);
+    return std::nullopt;
+  }
+  if (status == Status::ok) return std::move(events_);
+  const std::string fault =
+      status == Status::too_many_clock_events
+          ? concat("the clock made more than ", to_internal(options_).max_clock_events,
+                   " events in one call; advance in smaller steps")
+          : concat("the checker rejects an answer of the solver, which is a bug in cbc; please "
+                   "report it: ",
+                   coordinator_->internal_error());
+  go_back(*moment_);
+  throw CallFault(fault);
+}
+
+void Session::go_back(const Moment& moment) {
+  is_stopped_ = nullptr;
+  events_.clear();
+  make_coordinator();
+  coordinator_->resume(moment.before);
+  outcome_ = moment.before.outcome;
+  // What the call decided is undone, and what it replaced is not known any more.
+  const auto is_of_call = [&moment](const auto& other) { return other.get() == &moment; };
+  std::replace_if(decisions_.begin(), decisions_.end(), is_of_call, nullptr);
+  for (auto& rejection : rejections_) {
+    if (rejection && is_of_call(rejection->moment)) rejection.reset();
+  }
+}
+
+void Session::on_event(const EventRecord& record) {
+  HandledEvent& event = events_.emplace_back();
+  event.moment = moment_;
+  event.record = record;
+  event.record.search = nullptr;
+  if (record.search != nullptr) {
+    const SearchStatus status = record.search->result.status;
+    event.is_proven = status == SearchStatus::optimal || status == SearchStatus::infeasible;
+    const GroupId group = record.search->group;
+    if (record.outcome == Outcome::accepted) {
+      decisions_[group] = moment_;
+      rejections_[group].reset();
+    } else {
+      rejections_[group] = event;
+    }
+  }
+  if (record.origin == Origin::script && form_of(record.verb).is_decided) outcome_ = record.outcome;
+}
+
+}  // namespace cbc::python

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/script/script.h"
+#include "python/module/catalog.h"
+#include "runtime/coordinator/coordinator.h"
+#include "runtime/coordinator/record.h"
+#include "runtime/coordinator/state.h"
+
+// A coordinator with what Python asks of it beyond events. Nothing here knows Python.
+
+namespace cbc::python {
+
+/// What a program asks of a coordinator at once: to move its clock, and then to take an event.
+struct Call {
+  std::optional<Microseconds> time;  ///< empty: now
+  std::optional<Step> step;          ///< empty: the clock alone, with all that is due at the time
+};
+
+/// The options of a coordinator, as far as Python has them.
+struct SessionOptions {
+  Microseconds reactive_delay = 80'000;
+  bool timeouts = true;
+  std::uint64_t max_nodes = 0;
+  Microseconds time_limit = 0;
+};
+
+[[nodiscard]] CoordinatorOptions to_internal(const SessionOptions& options);
+
+/// A call with the state before it. The coordinator does the same whenever it is asked from the
+/// same state, so all that anybody may ask later about an event can be found by doing it again. An
+/// event that nobody asks about costs no more than this copy.
+struct Moment {
+  std::shared_ptr<const Catalog> catalog;
+  SessionOptions options;
+  Snapshot before;
+  Call call;
+};
+
+/// What one event did.
+struct HandledEvent {
+  std::shared_ptr<const Moment> moment;  ///< of the call that it is a part of
+  EventRecord record;                    ///< without search and explanations
+  bool is_proven = true;
+};
+
+/// Why a call was not done. The state is that before it.
+struct CallFault : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Asked again and again in a call; true ends it.
+using IsStopped = std::function<bool()>;
+
+/// Does a call.
+[[nodiscard]] Coordinator::Status make_call(Coordinator& coordinator, const Call& call);
+
+class Session final : private EventListener {
+ public:
+  Session(std::shared_ptr<const Catalog> catalog, const SessionOptions& options);
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// Another one in the same state.
+  [[nodiscard]] std::unique_ptr<Session> clone() const;
+
+  void begin(const Situation& situation);
+  /// Continues from a state that find_inconsistency accepts; `options` of what goes on are kept.
+  void resume(const Snapshot& snapshot);
+  [[nodiscard]] Snapshot snapshot() const;
+
+  /// What the call did, in order; nothing if `is_stopped` ended it. Throws a CallFault.
+  [[nodiscard]] std::optional<std::vector<HandledEvent>> run(Call call, const IsStopped& is_stopped);
+
+  /// The last call in which an event of the group was accepted; null: none.
+  [[nodiscard]] std::shared_ptr<const Moment> decision_of(GroupId group) const {
+    return decisions_[group];
+  }
+  /// The last rejected event of the group since then.
+  [[nodiscard]] const std::optional<HandledEvent>& rejection_of(GroupId group) const {
+    return rejections_[group];
+  }
+
+  [[nodiscard]] const std::shared_ptr<const Catalog>& catalog() const { return catalog_; }
+  [[nodiscard]] const SessionOptions& options() const { return options_; }
+  [[nodiscard]] const Coordinator& coordinator() const { return *coordinator_; }
+  [[nodiscard]] const State& state() const { return coordinator_->state(); }
+
+ private:
+  void on_event(const EventRecord& record) override;
+  void make_coordinator();
+  void go_back(const Moment& moment);
+
+  const std::shared_ptr<const Catalog> catalog_;
+  SessionOptions options_;
+  std::optional<Coordinator> coordinator_;
+  const IsStopped* is_stopped_ = nullptr;  ///< of the present call
+  bool was_stopped_ = false;
+  std::shared_ptr<const Moment> moment_;  ///< of the present call
+  std::vector<HandledEvent> events_;      ///< of the present call
+  std::optional<Outcome> outcome_;        ///< for a saved state
+  std::vector<std::shared_ptr<const Moment>> decisions_;  ///< by group
+  std::vector<std::optional<HandledEvent>> rejections_;   ///< by group
+};
+
+}  // namespace cbc::python

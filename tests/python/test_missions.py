@@ -1,0 +1,105 @@
+"""Missions through Python and through `cbc solve`: each event is the same."""
+
+import json
+import shlex
+
+import pytest
+
+import cbc_catalog as cbc
+from conftest import SOURCE, run_cbc
+
+
+def find_missions():
+    """Folder, catalog and script of all missions of catalogs/ and of the golden cases that are run."""
+    for script in sorted(SOURCE.glob("catalogs/*.mission.yaml")):
+        yield SOURCE, [str(script.relative_to(SOURCE))]
+    for script in sorted(SOURCE.glob("catalogs/missions/*.yaml")):
+        yield SOURCE, [str(script.relative_to(SOURCE))]
+    seen = set()
+    for command in sorted(SOURCE.glob("tests/golden/cases/*/command")):
+        words = shlex.split(command.read_text(), comments=True)
+        files = [word for word in words[1:] if (command.parent / word).is_file()]
+        key = (command.parent, *files)
+        if words[:1] == ["solve"] and files and key not in seen and "--state-in" not in words:
+            seen.add(key)
+            yield command.parent, files
+
+
+def lines_of(folder, files):
+    """The header and the events of a mission; None: it cannot be run by itself."""
+    status, output, _ = run_cbc("solve", "--format", "jsonl", *files, cwd=folder)
+    if status not in (0, 1):
+        return None
+    lines = [json.loads(line) for line in output.splitlines()]
+    return lines[0], [line for line in lines[1:] if "verb" in line]
+
+
+def call(robot, event):
+    """Does in Python what an event of a script says."""
+    at = event["time"]
+    verb = event["verb"]
+    if verb == "start":
+        return robot.start(event["name"], event["priority"], at=at, parameters=event.get("parameters"))
+    if verb == "stop":
+        return robot.stop(event["name"], priority=event["priority"], at=at)
+    if verb == "finish":
+        return robot.finish(event.get("task", event["name"]), event["cause"], at=at)
+    if verb == "situation":
+        return robot.situation(event["situation"], at=at)
+    return getattr(robot, verb)(event["name"], at=at)
+
+
+def replay(header, events, catalog):
+    robot = cbc.Coordinator(catalog, situation=header["situation"], timeouts=header.get("timeouts", True),
+                            reactive_delay=header["reactive_delay"])
+    made = []
+    for event in events:
+        if event["origin"] == "script" and event["verb"] != "wait":
+            done = call(robot, event)
+            made += [*done.before, done, *done.after]
+    end = events[-1]["time"] if events else 0
+    made += robot.advance(max(end, robot.now))
+    return made, robot
+
+
+def comparable(event):
+    """Without what counts events, since waits are none in Python."""
+    event = json.loads(json.dumps(event))
+    for name in ("index", "variables", "parameters"):
+        event.pop(name, None)
+    for stopped in event["stopped_tasks"]:
+        stopped.pop("message", None)
+        stopped.pop("conflict", None)
+    return event
+
+
+MISSIONS = list(find_missions())
+
+
+@pytest.mark.parametrize("folder, files", MISSIONS, ids=[f"{m[0].name}-{m[1][-1]}" for m in MISSIONS])
+def test_same_as_solve(folder, files, monkeypatch):
+    lines = lines_of(folder, files)
+    if lines is None:
+        return
+    header, events = lines
+    monkeypatch.chdir(folder)
+    made, robot = replay(header, events, cbc.Catalog(header["catalog"]))
+    expected = [comparable(event) for event in events if event["verb"] != "wait"]
+    assert [comparable(event.to_json()) for event in made] == expected
+    # The members of an event say the same as its JSON.
+    for event, written in zip(made, expected):
+        assert (event.outcome, event.verb, event.origin) == (
+            written["outcome"], written["verb"], written["origin"])
+        assert [(c.op, c.behavior, list(c.tasks), c.cause, c.priority, c.success)
+                for c in event.changes] == [tuple(c.values()) for c in written["changes"]]
+        assert [(s.task, s.cause) for s in event.stopped] == [
+            (s["task"], s["cause"]) for s in written["stopped_tasks"]]
+        assert event.time == written["time"]
+    if expected:
+        assert robot.running == expected[-1]["running"]
+        assert robot.requests == expected[-1]["requests"]
+        assert robot.queue == expected[-1]["queue"]
+
+
+def test_enough_missions_are_compared():
+    assert len(MISSIONS) > 80
