@@ -24,7 +24,7 @@ behaviors:
 - {behavior: SLAM, task: LOCALIZE, suitability: 100}
 - {behavior: BEACON, task: SIGNAL, suitability: 60}
 tasks:
-- {task: DRIVE, parameters: [{name: speed}]}
+- {task: DRIVE, parameters: [{parameter: speed}]}
 - {task: LIFT}
 - {task: LOCALIZE, start_on_request: false, execution_goal: keep_running}
 - {task: SIGNAL, start_on_request: false, reactive_start: true}

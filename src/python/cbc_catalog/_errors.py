@@ -58,3 +58,7 @@ class CatalogError(Error):
 
     def __reduce__(self) -> Tuple[Any, ...]:
         return type(self), (self._message, self.findings)
+
+
+for _class in (Finding, Error, UsageError, UnknownName, CatalogError):
+    _class.__module__ = "cbc_catalog"  # where people know them from

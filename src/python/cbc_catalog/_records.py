@@ -73,9 +73,9 @@ class Record:
         return [*super().__dir__(), *filter(str.isidentifier, self._members)]
 
     def __eq__(self, other: object) -> bool:
-        if type(self) is not type(other):
+        if not isinstance(other, Record) or type(self) is not type(other):
             return NotImplemented
-        return self._key() == other._key()  # type: ignore[attr-defined]
+        return self._key() == other._key()
 
     def __hash__(self) -> int:
         return hash(frozenset(self._members.items()))
@@ -128,3 +128,7 @@ class Report(Record):
 
     def __repr__(self) -> str:
         return f"<Report {self._members.get('schema')}: {'passed' if self.passed else 'not passed'}>"
+
+
+for _class in (Record, Report):
+    _class.__module__ = "cbc_catalog"  # where people know them from

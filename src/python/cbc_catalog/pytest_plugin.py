@@ -88,7 +88,7 @@ class _Item(pytest.Item):
 
 
 class _File(pytest.File):
-    def repr_failure(self, excinfo: Any) -> Any:
+    def repr_failure(self, excinfo: Any, style: Any = None) -> Any:
         if isinstance(excinfo.value, Error):
             return str(excinfo.value)
         return super().repr_failure(excinfo)
@@ -189,7 +189,7 @@ def _explanation_in(case: xml.etree.ElementTree.Element) -> str:
     return ""
 
 
-@pytest.hookimpl(hookwrapper=True)
+@pytest.hookimpl(hookwrapper=True)  # type: ignore[misc]
 def pytest_runtest_makereport(item: pytest.Item) -> Iterator[None]:
     outcome = yield
     if isinstance(item, Script):
