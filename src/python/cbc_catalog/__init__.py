@@ -39,4 +39,11 @@ __all__ = [
     "verify",
 ]
 
-Catalog._repr_svg_ = _picture
+
+def _repr_svg_(self):
+    """The graph of the catalog, for notebooks; None without Graphviz."""
+    return _picture(self)
+
+
+Catalog._repr_svg_ = _repr_svg_
+del _repr_svg_

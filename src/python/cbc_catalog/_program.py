@@ -12,8 +12,9 @@ import os
 import re
 import subprocess
 import tempfile
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Optional, Tuple, Union
 
 from . import _build
 from ._errors import CatalogError, Error, Finding, UsageError
@@ -21,7 +22,7 @@ from ._native import Catalog
 from ._records import Report
 
 _FINDING = re.compile(r"(.*?):(\d+):(\d+): (error|warning|note): (.*) \[([a-z-]+)\]")
-_INPUT = (str, os.PathLike, Catalog)
+_INPUT: Tuple[Any, ...] = (str, os.PathLike, Catalog)
 
 
 def program() -> str:

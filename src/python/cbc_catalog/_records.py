@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import difflib
-from typing import Any, Dict, Iterator, Tuple
+from collections.abc import Iterator
+from typing import Any, Dict, Tuple
 
 from ._errors import UnknownName
 

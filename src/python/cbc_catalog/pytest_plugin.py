@@ -13,8 +13,9 @@ from __future__ import annotations
 
 import os
 import xml.etree.ElementTree
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, Optional, Tuple, Union
+from typing import Any, Dict, List, Optional, Tuple, Union
 
 import pytest
 

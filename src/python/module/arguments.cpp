@@ -14,9 +14,7 @@
 namespace cbc::python {
 namespace {
 
-std::string type_of(const py::handle& value) {
-  return std::string(Py_TYPE(value.ptr())->tp_name);
-}
+std::string type_of(const py::handle& value) { return std::string(Py_TYPE(value.ptr())->tp_name); }
 
 [[noreturn]] void refuse_type(std::string_view what, std::string_view expected,
                               const py::handle& found) {
@@ -87,8 +85,8 @@ Microseconds read_seconds(const py::handle& seconds, std::string_view what) {
       number ? PyFloat_AS_DOUBLE(number.ptr()) : std::numeric_limits<double>::infinity();
   const auto most = static_cast<double>(longest_time / second);
   if (!(value >= 0 && value <= most)) {
-    raise("UsageError", concat(what, ": expected 0 to ", longest_time / second,
-                               " seconds, found ", std::string(py::str(seconds))));
+    raise("UsageError", concat(what, ": expected 0 to ", longest_time / second, " seconds, found ",
+                               std::string(py::str(seconds))));
   }
   return std::llround(value * static_cast<double>(second));
 }
@@ -97,9 +95,9 @@ std::optional<Microseconds> read_time(const py::handle& seconds, Microseconds no
   if (seconds.is_none()) return std::nullopt;
   const Microseconds time = read_seconds(seconds, "time");
   if (time < now) {
-    raise("UsageError", concat("time: expected ", format_decimal(now, 6),
-                               " s, which is now, or later, found ", format_decimal(time, 6),
-                               " s; time never goes back"));
+    raise("UsageError",
+          concat("time: expected ", format_decimal(now, 6), " s, which is now, or later, found ",
+                 format_decimal(time, 6), " s; time never goes back"));
   }
   return time;
 }
@@ -112,9 +110,9 @@ std::int64_t read_integer(const py::handle& number, std::string_view what, std::
   int overflow = 0;
   const long long value = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
   if (overflow != 0 || value < least || value > most) {
-    raise("UsageError", concat(what, ": expected an integer from ", least, " to ", most, ", found ",
-                               overflow != 0 ? std::string("one of more than 63 bits")
-                                             : std::to_string(value)));
+    raise("UsageError",
+          concat(what, ": expected an integer from ", least, " to ", most, ", found ",
+                 overflow != 0 ? std::string("one of more than 63 bits") : std::to_string(value)));
   }
   return value;
 }

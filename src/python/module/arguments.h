@@ -2,11 +2,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <pybind11/pybind11.h>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <pybind11/pybind11.h>
 
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
@@ -41,7 +40,6 @@ namespace py = pybind11;
                                                         const py::handle& parameters);
 
 /// Adds the entries of a mapping of behaviors to booleans, and of situation variables to values.
-void read_situation(const CompiledCatalog& catalog, const py::handle& values,
-                    Situation& situation);
+void read_situation(const CompiledCatalog& catalog, const py::handle& values, Situation& situation);
 
 }  // namespace cbc::python

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <memory>
-#include <vector>
-
 #include <pybind11/pybind11.h>
+#include <vector>
 
 #include "python/module/catalog.h"
 #include "python/module/session.h"

@@ -24,8 +24,9 @@ CatalogLoading load_compiled_text(std::string name, std::string path, std::strin
   CompiledFileResult result = read_compiled(text);
   if (!result.file) return {nullptr, {}, concat("cannot read ", quote(name), ": ", result.error)};
   auto compiled = std::make_shared<const CompiledCatalog>(std::move(result.file->catalog));
-  return {
-      make_catalog(std::move(name), std::move(path), std::move(text), std::move(compiled), {}), {}, {}};
+  return {make_catalog(std::move(name), std::move(path), std::move(text), std::move(compiled), {}),
+          {},
+          {}};
 }
 
 /// What else than a catalog the file is; empty: nothing else.

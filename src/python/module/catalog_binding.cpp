@@ -124,7 +124,8 @@ void bind_catalog(py::module_& module) {
                              "The tasks in catalog order, each with the behaviors that can perform "
                              "it, the most suitable first.");
   type.def_property_readonly(
-      "behaviors", [](const Catalog& catalog) { return names_of(catalog.compiled->behavior_names); },
+      "behaviors",
+      [](const Catalog& catalog) { return names_of(catalog.compiled->behavior_names); },
       "The behaviors in catalog order.");
   type.def_property_readonly("variables", &variables_of,
                              "The situation variables in catalog order, each with its values.");
@@ -137,8 +138,7 @@ void bind_catalog(py::module_& module) {
     if (!py::isinstance<Catalog>(other)) {
       return py::reinterpret_borrow<py::object>(Py_NotImplemented);
     }
-    return py::bool_(digest_of_catalog(one) ==
-                     digest_of_catalog(py::cast<const Catalog&>(other)));
+    return py::bool_(digest_of_catalog(one) == digest_of_catalog(py::cast<const Catalog&>(other)));
   });
   type.def("__hash__",
            [](const Catalog& catalog) { return py::hash(py::str(digest_of_catalog(catalog))); });

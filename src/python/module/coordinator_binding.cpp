@@ -32,7 +32,8 @@ struct PythonCoordinator {
 template <typename Use>
 auto with_session(PythonCoordinator& coordinator, const Use& use) {
   if (coordinator.turn.is_mine()) {
-    raise("Error", "a coordinator cannot be used while it handles an event, as by a signal handler");
+    raise("Error",
+          "a coordinator cannot be used while it handles an event, as by a signal handler");
   }
   const Turn::Lock lock(coordinator.turn);
   try {
@@ -160,7 +161,8 @@ py::tuple behaviors_that(PythonCoordinator& coordinator, const Has& has) {
   return with_session(coordinator, [&](Session& session) {
     py::list names;
     for (const BehaviorId behavior : session.catalog()->compiled->behavior_ids) {
-      if (has(session.state(), behavior)) names.append(name_of_behavior(*session.catalog(), behavior));
+      if (has(session.state(), behavior))
+        names.append(name_of_behavior(*session.catalog(), behavior));
     }
     return py::tuple(names);
   });
@@ -215,8 +217,8 @@ py::bytes save(PythonCoordinator& coordinator) {
 
 void restore_in(Session& session, const py::handle& state) {
   if (!PyBytes_Check(state.ptr()) && !PyUnicode_Check(state.ptr())) {
-    raise_type_error(concat("state: expected bytes or a str, found ",
-                            Py_TYPE(state.ptr())->tp_name));
+    raise_type_error(
+        concat("state: expected bytes or a str, found ", Py_TYPE(state.ptr())->tp_name));
   }
   const StateReading reading =
       read_state(py::cast<std::string>(state), *session.catalog()->compiled);
@@ -286,9 +288,8 @@ void bind_option(py::module_& module) {
   py::class_<PythonOption> type(module, "Option",
                                 "Something that could happen next, and what would come of it.");
   const auto behaviors = [](const PythonOption& of, const auto& entries) {
-    return dict_of(*of.catalog, entries, [&of](BehaviorId behavior) {
-      return name_of_behavior(*of.catalog, behavior);
-    });
+    return dict_of(*of.catalog, entries,
+                   [&of](BehaviorId behavior) { return name_of_behavior(*of.catalog, behavior); });
   };
   type.def_property_readonly(
       "event",
@@ -336,9 +337,10 @@ void bind_option(py::module_& module) {
       "Reactive tasks that would come into the queue, each with the time when it is due, in\n"
       "seconds.");
   type.def("__repr__", [](const PythonOption& of) {
-    return to_str(concat("<Option ", std::string(py::str(py::repr(py::cast(
-                                         std::const_pointer_cast<PythonEvent>(of.event))))),
-                         ">"));
+    return to_str(concat(
+        "<Option ",
+        std::string(py::str(py::repr(py::cast(std::const_pointer_cast<PythonEvent>(of.event))))),
+        ">"));
   });
 }
 
@@ -378,9 +380,8 @@ void bind_state(py::class_<PythonCoordinator>& type) {
   type.def_property_readonly(
       "now",
       [](PythonCoordinator& of) {
-        return with_session(of, [](Session& session) {
-          return to_seconds(session.coordinator().now());
-        });
+        return with_session(
+            of, [](Session& session) { return to_seconds(session.coordinator().now()); });
       },
       "Seconds on the clock, which starts at 0 and never goes back.");
   type.def_property_readonly(
@@ -415,25 +416,22 @@ void bind_state(py::class_<PythonCoordinator>& type) {
   type.def_property_readonly(
       "active",
       [](PythonCoordinator& of) {
-        return behaviors_that(of, [](const State& state, BehaviorId behavior) {
-          return state.is_active(behavior);
-        });
+        return behaviors_that(
+            of, [](const State& state, BehaviorId behavior) { return state.is_active(behavior); });
       },
       "The active behaviors in catalog order.");
   type.def_property_readonly(
       "faulty",
       [](PythonCoordinator& of) {
-        return behaviors_that(of, [](const State& state, BehaviorId behavior) {
-          return state.is_faulty(behavior);
-        });
+        return behaviors_that(
+            of, [](const State& state, BehaviorId behavior) { return state.is_faulty(behavior); });
       },
       "The faulty behaviors in catalog order.");
   type.def_property_readonly(
       "unavailable",
       [](PythonCoordinator& of) {
-        return behaviors_that(of, [](const State& state, BehaviorId behavior) {
-          return state.is_denied(behavior);
-        });
+        return behaviors_that(
+            of, [](const State& state, BehaviorId behavior) { return state.is_denied(behavior); });
       },
       "The behaviors that situation() made unavailable, in catalog order.");
   type.def_property_readonly("variables", &values_of_session,
@@ -468,9 +466,8 @@ void bind_coordinator(py::module_& module) {
       },
       py::arg("state"), "Continues from a saved state of the same catalog.");
   const auto copy = [](PythonCoordinator& of) {
-    return with_session(of, [](Session& session) {
-      return std::make_unique<PythonCoordinator>(session.clone());
-    });
+    return with_session(
+        of, [](Session& session) { return std::make_unique<PythonCoordinator>(session.clone()); });
   };
   type.def("__copy__", copy);
   type.def("__deepcopy__", [copy](PythonCoordinator& of, const py::object&) { return copy(of); });
@@ -494,8 +491,8 @@ void bind_coordinator(py::module_& module) {
     return with_session(of, [](Session& session) {
       const std::size_t running = session.state().running().size();
       return to_str(concat("<Coordinator of ", quote(session.catalog()->name), " at ",
-                           format_time(session.coordinator().now()), " s: ",
-                           quantity(running, "task"), running == 1 ? " runs>" : " run>"));
+                           format_time(session.coordinator().now()),
+                           " s: ", quantity(running, "task"), running == 1 ? " runs>" : " run>"));
     });
   });
 }

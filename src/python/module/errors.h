@@ -1,11 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <pybind11/pybind11.h>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <pybind11/pybind11.h>
 
 #include "core/diagnostic/diagnostic.h"
 

@@ -110,9 +110,8 @@ void bind_stop(py::module_& module) {
       [](const PythonStop& stop) { return to_str(stop_word(stop.of->event.record, stop.part)); },
       "'requested', 'displaced', 'released', or the cause of the finish of its behavior.");
   type.def("__repr__", [](const PythonStop& stop) {
-    return to_str(concat("<StoppedTask ",
-                         stop.catalog().compiled->name_of_task(stop.part.task), " (",
-                         stop_word(stop.of->event.record, stop.part), ")>"));
+    return to_str(concat("<StoppedTask ", stop.catalog().compiled->name_of_task(stop.part.task),
+                         " (", stop_word(stop.of->event.record, stop.part), ")>"));
   });
   bind_value<PythonStop>(type, [](const PythonStop& stop) { return as_tuple(stop); });
 }
@@ -264,7 +263,8 @@ void bind_events(py::module_& module) {
       [](const PythonEvent& event) {
         return py::module_::import("json").attr("loads")(ask(event, &event_to_json));
       },
-      "The event as `cbc solve --format json` has it, with the state after it (schema cbc.solve/1).");
+      "The event as `cbc solve --format json` has it, with the state after it (schema "
+      "cbc.solve/1).");
   type.def("__repr__", [](const PythonEvent& event) {
     return to_str(concat("<Event ", event.event.record.index, " at ",
                          format_time(event.event.record.time), " s: ", words_of_event(event), ">"));

@@ -55,19 +55,18 @@ class Repetition final : public EventListener {
 
 std::string describe_rejected(const CompiledCatalog& catalog, const EventRecord& record) {
   std::string text;
-  add(text,
-      {place_of(catalog, record) + " was rejected:", describe_rejection(catalog, record)}, "");
+  add(text, {place_of(catalog, record) + " was rejected:", describe_rejection(catalog, record)},
+      "");
   return text;
 }
 
 void repeat(const HandledEvent& event, const Repetition::Take& take) {
   ExplanationOptions explain;
   explain.displaced = true;
-  const Repetition repetition(
-      *event.moment, explain,
-      [&](const EventRecord& record, const Step* step, const State& state) {
-        if (record.index == event.record.index) take(record, step, state);
-      });
+  const Repetition repetition(*event.moment, explain,
+                              [&](const EventRecord& record, const Step* step, const State& state) {
+                                if (record.index == event.record.index) take(record, step, state);
+                              });
 }
 
 }  // namespace

@@ -4,17 +4,16 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
-#include <thread>
-
 #include <pybind11/pybind11.h>
+#include <thread>
 
 // How events get along with threads and with Ctrl-C.
 
 namespace cbc::python {
 
-/// Most events take microseconds, in which the GIL is kept: to give it away and to wait for it again
-/// would take longer, and much longer while other threads compute. After a millisecond other threads
-/// go on, and every 50 ms Python looks for signals.
+/// Most events take microseconds, in which the GIL is kept: to give it away and to wait for it
+/// again would take longer, and much longer while other threads compute. After a millisecond other
+/// threads go on, and every 50 ms Python looks for signals.
 class LongCall {
  public:
   LongCall() : begin_(Clock::now()), looked_(begin_) {}
@@ -77,8 +76,8 @@ class Turn {
     Turn& turn_;
   };
 
-  /// Whether this thread has the turn, so that it must not wait for it: a signal handler runs within
-  /// a call.
+  /// Whether this thread has the turn, so that it must not wait for it: a signal handler runs
+  /// within a call.
   [[nodiscard]] bool is_mine() const { return owner_ == std::this_thread::get_id(); }
 
  private:

@@ -78,8 +78,7 @@ Snapshot Session::snapshot() const {
 
 std::optional<std::vector<HandledEvent>> Session::run(Call call, const IsStopped& is_stopped) {
   using Status = Coordinator::Status;
-  moment_ =
-      std::make_shared<const Moment>(Moment{catalog_, options_, snapshot(), std::move(call)});
+  moment_ = std::make_shared<const Moment>(Moment{catalog_, options_, snapshot(), std::move(call)});
   events_.clear();
   is_stopped_ = &is_stopped;
   was_stopped_ = false;
@@ -100,9 +99,10 @@ std::optional<std::vector<HandledEvent>> Session::run(Call call, const IsStopped
       status == Status::too_many_clock_events
           ? concat("the clock made more than ", to_internal(options_).max_clock_events,
                    " events in one call; advance in smaller steps")
-          : concat("the checker rejects an answer of the solver, which is a bug in cbc; please "
-                   "report it: ",
-                   coordinator_->internal_error());
+          : concat(
+                "the checker rejects an answer of the solver, which is a bug in cbc; please "
+                "report it: ",
+                coordinator_->internal_error());
   go_back(*moment_);
   throw CallFault(fault);
 }

@@ -78,7 +78,8 @@ class Session final : private EventListener {
   [[nodiscard]] Snapshot snapshot() const;
 
   /// What the call did, in order; nothing if `is_stopped` ended it. Throws a CallFault.
-  [[nodiscard]] std::optional<std::vector<HandledEvent>> run(Call call, const IsStopped& is_stopped);
+  [[nodiscard]] std::optional<std::vector<HandledEvent>> run(Call call,
+                                                             const IsStopped& is_stopped);
 
   /// The last call in which an event of the group was accepted; null: none.
   [[nodiscard]] std::shared_ptr<const Moment> decision_of(GroupId group) const {
@@ -104,9 +105,9 @@ class Session final : private EventListener {
   std::optional<Coordinator> coordinator_;
   const IsStopped* is_stopped_ = nullptr;  ///< of the present call
   bool was_stopped_ = false;
-  std::shared_ptr<const Moment> moment_;  ///< of the present call
-  std::vector<HandledEvent> events_;      ///< of the present call
-  std::optional<Outcome> outcome_;        ///< for a saved state
+  std::shared_ptr<const Moment> moment_;                  ///< of the present call
+  std::vector<HandledEvent> events_;                      ///< of the present call
+  std::optional<Outcome> outcome_;                        ///< for a saved state
   std::vector<std::shared_ptr<const Moment>> decisions_;  ///< by group
   std::vector<std::optional<HandledEvent>> rejections_;   ///< by group
 };

@@ -59,8 +59,7 @@ Option option_of(const Session& session, const Snapshot& before, const PossibleM
 
 }  // namespace
 
-std::vector<Option> find_options(const Session& session,
-                                 std::span<const std::int32_t> priorities) {
+std::vector<Option> find_options(const Session& session, std::span<const std::int32_t> priorities) {
   const CompiledCatalog& catalog = *session.catalog()->compiled;
   const Snapshot before = session.snapshot();
   const std::vector<Step> steps =

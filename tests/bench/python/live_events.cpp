@@ -1,5 +1,5 @@
-// How long events take in C++: live_events CATALOG.cbc EVENTS TASK..., which starts and stops the tasks in
-// turn. Prints nanoseconds for one event. compare.py does the same in Python.
+// How long events take in C++: live_events CATALOG.cbc EVENTS TASK..., which starts and stops the
+// tasks in turn. Prints nanoseconds for one event. compare.py does the same in Python.
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
