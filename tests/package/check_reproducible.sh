@@ -11,11 +11,12 @@ source=$(realpath -- "$(dirname -- "${BASH_SOURCE[0]}")/../..")
 
 mkdir -- "$copy"
 tar -C "$source" --exclude=./build --exclude=./.git -cf - . | tar -C "$copy" --touch -xf -
+made="$copy/build/package/$(basename -- "$package")"
 umask 077
 LC_ALL=C.UTF-8 TZ=Pacific/Auckland "$copy/dev" package
-if ! cmp -- "$package" "$copy"/build/package/*.deb; then
+if ! cmp -- "$package" "$made"; then
   number=0
-  for one in "$package" "$copy"/build/package/*.deb; do
+  for one in "$package" "$made"; do
     dpkg-deb --fsys-tarfile "$one" | tar -tvf - >"$copy/list"
     dpkg-deb -R "$one" "$copy/files"
     (cat "$copy/list" && cd "$copy/files" && find . -type f -exec sha256sum {} + | sort -k 2) >"$copy/$((++number)).sums"

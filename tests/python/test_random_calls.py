@@ -39,12 +39,16 @@ def call_with_names(robot, draw):
 
 
 def call_with_anything(robot, draw):
-    verb = draw.choice([*VERBS, "advance", "situation", "restore", "options", "save", "__init__"])
+    verb = draw.choice([*VERBS, "advance", "situation", "restore", "options", "save", "__setstate__", "__init__", "from_text"])
     arguments = [draw.choice(ODD) for _ in range(draw.randrange(3))]
     named = {name: draw.choice(ODD) for name in ("at", "priority", "parameters", "cause", "PEOPLE")
              if draw.random() < 0.2}
     if verb == "__init__":
         return cbc.Coordinator(*arguments, **named)
+    if verb == "from_text":
+        return cbc.Catalog.from_text(*arguments)
+    if verb == "__setstate__":
+        return cbc.Coordinator.__new__(cbc.Coordinator).__setstate__(tuple(draw.choices(ODD, k=4)))
     return getattr(robot, verb)(*arguments, **named)
 
 

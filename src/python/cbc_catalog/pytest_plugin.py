@@ -67,7 +67,7 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> Optional[p
     is_meant = any(path == file_path or path in file_path.parents for path in paths)
     if not is_meant or file_path.suffix not in _SUFFIXES:
         return None
-    kind = _native.kind_of(os.fsencode(file_path.name), file_path.read_bytes())
+    kind, _ = _look_at(file_path)
     if kind == "script":
         made: pytest.Collector = ScriptFile.from_parent(parent, path=file_path)
         return made
@@ -97,14 +97,13 @@ class _File(pytest.File):
     def inputs(self) -> List[str]:
         """The catalog, unless the file names it, and the file."""
         catalog = _catalog_path(self.config)
-        has_name = _names_catalog(self.path)
-        return [str(self.path)] if has_name or catalog is None else [str(catalog), str(self.path)]
+        _, has_catalog = _look_at(self.path)
+        return [str(self.path)] if has_catalog or catalog is None else [str(catalog), str(self.path)]
 
 
-def _names_catalog(path: Path) -> bool:
-    """Whether a file has the key `catalog` at its top level."""
-    return any(line.startswith((b"catalog:", b'"catalog":')) or b'{"catalog"' in line[:12]
-               for line in path.read_bytes().splitlines())
+def _look_at(path: Path) -> Tuple[str, bool]:
+    """What kind of file it is, and whether it names its catalog."""
+    return _native.kind_of(os.fsencode(path), path.read_bytes())
 
 
 class ScriptFile(_File):

@@ -33,11 +33,7 @@ std::shared_ptr<const Catalog> load_file(const py::object& file) {
 }
 
 std::shared_ptr<const Catalog> load_text(const py::object& text, const py::str& name) {
-  const bool is_bytes = PyBytes_Check(text.ptr());
-  if (!is_bytes && !PyUnicode_Check(text.ptr())) {
-    raise_type_error(concat("text: expected a str or bytes, found ", Py_TYPE(text.ptr())->tp_name));
-  }
-  return load(py::cast<std::string>(name), {}, py::cast<std::string>(text));
+  return load(read_text(name, "name"), {}, read_text(text, "text"));
 }
 
 py::tuple names_of(const Texts& texts) {
@@ -157,8 +153,8 @@ void bind_catalog(py::module_& module) {
       },
       [held](const py::tuple& state) {
         if (state.size() != 3) raise("UsageError", "this is not the state of a Catalog");
-        return held(load(py::cast<std::string>(state[0]), py::cast<std::string>(state[1]),
-                         py::cast<std::string>(state[2])));
+        return held(load(read_text(state[0], "state"), read_text(state[1], "state"),
+                         read_text(state[2], "state")));
       }));
 }
 

@@ -216,12 +216,7 @@ py::bytes save(PythonCoordinator& coordinator) {
 }
 
 void restore_in(Session& session, const py::handle& state) {
-  if (!PyBytes_Check(state.ptr()) && !PyUnicode_Check(state.ptr())) {
-    raise_type_error(
-        concat("state: expected bytes or a str, found ", Py_TYPE(state.ptr())->tp_name));
-  }
-  const StateReading reading =
-      read_state(py::cast<std::string>(state), *session.catalog()->compiled);
+  const StateReading reading = read_state(read_text(state, "state"), *session.catalog()->compiled);
   if (!reading.snapshot) raise("UsageError", "cannot use the state: " + reading.error);
   session.resume(*reading.snapshot);
 }
@@ -480,8 +475,10 @@ void bind_coordinator(py::module_& module) {
       [](const py::tuple& state) {
         if (state.size() != 4) raise("UsageError", "this is not the state of a Coordinator");
         SessionOptions limits;
-        limits.max_nodes = py::cast<std::uint64_t>(state[1]);
-        limits.time_limit = py::cast<Microseconds>(state[2]);
+        if (!py::isinstance<Catalog>(state[0])) raise_type_error("state: expected a Catalog first");
+        limits.max_nodes = static_cast<std::uint64_t>(
+            read_integer(state[1], "max_nodes", 0, std::numeric_limits<std::int64_t>::max()));
+        limits.time_limit = read_integer(state[2], "time_limit", 0, longest_time);
         auto session =
             std::make_unique<Session>(py::cast<std::shared_ptr<Catalog>>(state[0]), limits);
         restore_in(*session, state[3]);

@@ -44,6 +44,16 @@ py::list to_python(const std::vector<Diagnostic>& findings) {
   return list;
 }
 
+std::string read_text(const py::handle& text, const char* what) {
+  if (PyBytes_Check(text.ptr())) return py::reinterpret_borrow<py::bytes>(text);
+  if (!PyUnicode_Check(text.ptr())) {
+    raise_type_error(std::string(what) + ": expected a str or bytes, found " +
+                     Py_TYPE(text.ptr())->tp_name);
+  }
+  // Half a character, which no file has, becomes a question mark.
+  return py::reinterpret_borrow<py::bytes>(text.attr("encode")("utf-8", "replace"));
+}
+
 py::str to_str(std::string_view text) {
   PyObject* const made =
       PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");

@@ -26,6 +26,9 @@ namespace py = pybind11;
 /// A list of Finding.
 [[nodiscard]] py::list to_python(const std::vector<Diagnostic>& findings);
 
+/// What a str (as UTF-8) or bytes has; `what` names anything else in a TypeError.
+[[nodiscard]] std::string read_text(const py::handle& text, const char* what);
+
 /// A text for Python. Bytes that are not UTF-8 are replaced.
 [[nodiscard]] py::str to_str(std::string_view text);
 

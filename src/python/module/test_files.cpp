@@ -14,12 +14,16 @@
 namespace cbc::python {
 namespace {
 
-/// "script", "properties", or "other".
-std::string kind_of(const py::bytes& name, const py::bytes& text) {
+/// "script", "properties", or "other", and whether it names its catalog.
+py::tuple kind_of(const py::bytes& name, const py::bytes& text) {
   cli::FileSet files;
   const auto file = files.parse(name, text);
-  if (file->what.kind == cli::FileKind::script) return "script";
-  return file->what.kind == cli::FileKind::properties ? "properties" : "other";
+  const bool has_catalog = file->document != nullptr && cli::catalog_named_by(*file).has_value();
+  const cli::FileKind kind = file->what.kind;
+  return py::make_tuple(kind == cli::FileKind::script       ? "script"
+                        : kind == cli::FileKind::properties ? "properties"
+                                                            : "other",
+                        has_catalog);
 }
 
 /// The line and the title of each property of a file.

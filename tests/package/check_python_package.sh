@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# check_python_package.sh PACKAGE PROGRAM_PACKAGE WORK: installs the Debian package for Python in a new root beside that
+# of the program, uses it there as somebody without any rights, and removes it again. WORK is a folder to write in.
+#
+# Exit status: 0 all is well, 1 it is not, 77 skipped: there can be no new root here.
+set -euo pipefail
+
+package=$(realpath -- "$1")
+program_package=$(realpath -- "$2")
+mkdir -p -- "$3"
+work=$(realpath -- "$3")
+root=$work/root
+name=$(dpkg-deb -f "$package" Package)
+
+skip() {
+  echo "check_python_package.sh: skipped: $*" >&2
+  exit 77
+}
+
+fail() {
+  echo "check_python_package.sh: FAILED: $*" >&2
+  exit 1
+}
+
+inside() {
+  chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 "$@"
+}
+
+use() {
+  chroot --userspec=65534:65534 "$root" env -i -C /tmp/use PATH=/usr/bin:/bin LC_ALL=C.UTF-8 "$@"
+}
+
+list_files() {
+  (cd "$root" && find . -xdev \( -path ./proc -o -path ./sys -o -path ./dev -o -path ./tmp -o -path ./var \) \
+    -prune -o -print) | sort
+}
+
+version=$(dpkg-deb -f "$program_package" Version)
+[[ $(dpkg-deb -f "$package" Depends) == *"$(dpkg-deb -f "$program_package" Package) (= $version)"* ]] ||
+  fail "it does not depend on the program of just this version: $(dpkg-deb -f "$package" Depends)"
+
+((EUID == 0)) || skip "only root can make a new root"
+command -v mmdebstrap >/dev/null || skip "there is no mmdebstrap"
+
+echo "-- lintian"
+# It is not uploaded to Debian.
+lintian --allow-root --fail-on error,warning --suppress-tags initial-upload-closes-no-bugs "$package"
+
+echo "-- a new root"
+trap 'rm -rf --one-file-system -- "$root"' EXIT
+rm -rf --one-file-system -- "$root"
+suite=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
+mmdebstrap --variant=apt --skip=cleanup/apt/lists --include=python3-pytest "$suite" "$root" >"$work/root.log" 2>&1 ||
+  skip "mmdebstrap failed: $(grep -m 3 '^[EW]' "$work/root.log" || cat "$work/root.log")"
+mkdir -m 777 "$root/tmp/use"
+cp -- "$program_package" "$root/tmp/program.deb"
+cp -- "$package" "$root/tmp/python.deb"
+
+echo "-- install and use"
+inside apt-get install -qq -y --no-install-recommends /tmp/program.deb >"$work/program.log" 2>&1 ||
+  fail "apt: $(tail -n 5 "$work/program.log")"
+list_files >"$work/before"
+inside apt-get install -qq -y --no-install-recommends /tmp/python.deb >"$work/install.log" 2>&1 ||
+  fail "apt: $(tail -n 5 "$work/install.log")"
+use cbc init robot
+printf '[pytest]\ncbc_paths = missions\ncbc_catalog = robot.yaml\n' >"$root/tmp/use/robot/pytest.ini"
+cat >"$root/tmp/use/robot/test_robot.py" <<'END'
+import cbc_catalog as cbc
+
+def test_drive(robot):
+    assert robot.start("DRIVE").accepted
+    assert robot.running["DRIVE"] == "DRIVE_FAST", robot.why("DRIVE")
+
+def test_checks():
+    assert cbc.verify("robot.yaml").passed
+END
+use env -C /tmp/use/robot python3 -m pytest -p no:cacheprovider --cbc-coverage >"$work/pytest.log" 2>&1 ||
+  fail "pytest: $(tail -n 20 "$work/pytest.log")"
+grep -q ' 3 passed' "$work/pytest.log" || fail "pytest: $(tail -n 20 "$work/pytest.log")"
+use python3 -c 'import cbc_catalog, importlib.metadata as m; assert m.version("cbc-catalog") == cbc_catalog.__version__'
+if inside apt-get remove -qq -y --simulate behavior-catalog-compiler | grep -q "^Remv $name"; then :; else
+  fail "the program can be removed, and $name stays"
+fi
+
+echo "-- remove"
+inside python3 -c 'import cbc_catalog' # as root, who may write beside it
+inside apt-get purge -qq -y "$name" >"$work/remove.log" 2>&1 || fail "apt: $(tail -n 5 "$work/remove.log")"
+list_files | diff "$work/before" - || fail "the package leaves these files"
+echo "check_python_package.sh: $(basename -- "$package"): all is well"
