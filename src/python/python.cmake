@@ -44,14 +44,16 @@ foreach(file METADATA entry_points.txt)
   configure_file(src/python/${file}.in "${python_build}/${dist_info}/${file}" @ONLY)
 endforeach()
 file(WRITE "${python_build}/${dist_info}/INSTALLER" "cmake\n")
-# The program beside this build; the installed package has the installed one.
-set(python_program "${CMAKE_CURRENT_BINARY_DIR}/${CBC_PROGRAM_NAME}")
+# Where Debian's Python looks below /usr/local; its package is moved to where that looks below /usr.
+set(CBC_PYTHON_DIR "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/dist-packages"
+    CACHE STRING "Where the Python package is installed, below the prefix")
+
+# The program beside this build, and the installed one; relative paths, so that the installed tree can be moved.
+set(python_program "../../${CBC_PROGRAM_NAME}")
 configure_file(src/python/_build.py.in "${python_build}/cbc_catalog/_build.py" @ONLY)
-set(python_program "${CMAKE_INSTALL_FULL_BINDIR}/${CBC_PROGRAM_NAME}")
+file(RELATIVE_PATH python_program "/${CBC_PYTHON_DIR}/cbc_catalog" "/${CMAKE_INSTALL_BINDIR}/${CBC_PROGRAM_NAME}")
 configure_file(src/python/_build.py.in "${python_build}/installed/_build.py" @ONLY)
 
-# Debian's Python looks into dist-packages of its prefix, whatever its version.
-set(CBC_PYTHON_DIR "lib/python3/dist-packages" CACHE STRING "Where the Python package is installed, below the prefix")
 install(TARGETS cbc_python LIBRARY DESTINATION "${CBC_PYTHON_DIR}/cbc_catalog" COMPONENT python)
 list(TRANSFORM python_files PREPEND "src/python/cbc_catalog/")
 install(FILES ${python_files} "${python_build}/installed/_build.py" DESTINATION "${CBC_PYTHON_DIR}/cbc_catalog"
