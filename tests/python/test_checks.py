@@ -155,3 +155,24 @@ def test_ctrl_c_ends_a_check_at_once(tmp_path):
     assert output == b"interrupted\n"
     with pytest.raises(ProcessLookupError):
         os.kill(int(pid.read_text()), 0)
+
+
+def test_ctrl_c_while_a_check_begins(tmp_path, monkeypatch):
+    slow = tmp_path / "cbc"
+    slow.write_text(SLEEP)
+    slow.chmod(0o755)
+    monkeypatch.setenv("CBC_PROGRAM", str(slow))
+    started = []
+    popen = subprocess.Popen
+
+    def interrupted(*arguments, **named):
+        started.append(popen(*arguments, **named))
+        os.kill(os.getpid(), signal.SIGINT)
+        return started[0]
+
+    monkeypatch.setattr(subprocess, "Popen", interrupted)
+    handler = signal.getsignal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt):
+        cbc.lint("robot.yaml")
+    assert started[0].returncode == -signal.SIGKILL
+    assert signal.getsignal(signal.SIGINT) is handler

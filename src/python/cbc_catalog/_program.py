@@ -10,8 +10,10 @@ import contextlib
 import json
 import os
 import re
+import signal
 import subprocess
 import tempfile
+import threading
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Tuple, Union
@@ -101,23 +103,45 @@ def _command_line(command: str, inputs: Sequence[Any], options: Dict[str, Any],
     return line + [files.name_of(file) for file in inputs]
 
 
+@contextlib.contextmanager
+def _interrupts_held() -> Iterator[List[Tuple[Any, Any]]]:
+    """Collects what Ctrl-C would call, with its arguments. Raised between the start of a process and the
+    moment when that is known here, it would leave the process alone."""
+    is_main = threading.current_thread() is threading.main_thread()
+    handler = signal.getsignal(signal.SIGINT) if is_main else None
+    held: List[Tuple[Any, Any]] = []
+    if not callable(handler):
+        yield held
+        return
+    signal.signal(signal.SIGINT, lambda *arguments: held.append((handler, arguments)))
+    try:
+        yield held
+    finally:
+        signal.signal(signal.SIGINT, handler)
+
+
 def execute(line: Sequence[str]) -> Tuple[int, str, str]:
     """Exit status, output and messages."""
+    process: Optional["subprocess.Popen[bytes]"] = None
     with tempfile.TemporaryFile() as messages:
         try:
-            process = subprocess.Popen(line, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                       stderr=messages)
-        except OSError as error:
-            raise Error(f"cannot run the program {line[0]}: {error.strerror}") from error
-        assert process.stdout is not None
-        with process.stdout:
-            try:
+            with _interrupts_held() as held:
+                process = subprocess.Popen(line, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                           stderr=messages)
+            for handler, arguments in held:
+                handler(*arguments)
+            assert process.stdout is not None
+            with process.stdout:
                 # Unlike communicate(), this does not wait for the process after Ctrl-C.
                 output = process.stdout.read()
-            except BaseException:
+        except OSError as error:
+            raise Error(f"cannot run the program {line[0]}: {error.strerror}") from error
+        except BaseException:
+            if process is not None:
                 process.kill()
-                raise
-            finally:
+            raise
+        finally:
+            if process is not None:
                 process.wait()
         messages.seek(0)
         said = messages.read()
