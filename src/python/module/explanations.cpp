@@ -39,6 +39,7 @@ class Repetition final : public EventListener {
     coordinator_ = &coordinator;
     coordinator.resume(moment.before);
     (void)make_call(coordinator, moment.call);  // it was ok the first time
+    coordinator_ = nullptr;
   }
 
  private:
