@@ -80,10 +80,8 @@ int tune(const TuneOptions& options) {
     return complain("{}: the clock made more than {} events",
                     quote(scripts[tuner.present().events.size() - 1]->file), most_clock_events);
   }
-  TuneResult result{
-      source.reading.catalog, *source.compiled, *numbers, tuner.present(), {}, {}, {}, {}, {}};
+  TuneResult result = begin_result(source, *numbers, tuner.present(), options);
   for (const Script* const script : scripts) result.missions.push_back(script->file);
-  if (!options.fail_under.empty()) result.fail_under = degree_of(options.fail_under);
   result.tuned = for_each_number("tuning", result, options, [&](std::size_t number) {
     return TunedNumber{tuner.tolerance(number), tuner.repairs(number),
                        !(*numbers)[number].uses.empty()};

@@ -54,7 +54,7 @@ int tune_states(const TuneOptions& options) {
     return usage_error("tune", "--all-states takes at most one property file, found {}",
                        questions->files.size());
   }
-  const CheckedCatalog& source = *questions->source;
+  const CheckedCatalog& source = *questions->catalog;
   if (!has_numbers(source)) return exit_unusable;
   const auto numbers = choose_numbers(source.reading, options.only);
   if (!numbers || (options.html && !can_write_output(*options.html))) return exit_unusable;
@@ -69,18 +69,10 @@ int tune_states(const TuneOptions& options) {
   const std::string& name = source.reading.catalog.file;
   if (survey.error) return complain("{}: {}", quote(name), *survey.error);
   if (survey.end) return complain_of_end(name, *survey.end, options);
-  Recording present;
-  present.decisions = survey.decisions;
-  TuneResult result{source.reading.catalog,
-                    *source.compiled,
-                    *numbers,
-                    present,
-                    {},
-                    {},
-                    {},
-                    {},
-                    TunedStates{survey.states, survey.transitions, file}};
-  if (!options.fail_under.empty()) result.fail_under = degree_of(options.fail_under);
+  const Recording none_run;
+  TuneResult result = begin_result(source, *numbers, none_run, options);
+  result.states.emplace(
+      TunedStates{survey.states, survey.transitions, survey.decisions.size(), file});
   const auto found = for_each_number("tuning", result, options,
                                      [&](std::size_t number) { return tuner.tolerance(number); });
   for (std::size_t number = 0; number < found.size(); ++number) {

@@ -60,6 +60,13 @@ int report_unreadable(const std::vector<Diagnostic>& findings, const TuneOptions
   return exit_unusable;
 }
 
+TuneResult begin_result(const CheckedCatalog& source, const std::vector<TunableNumber>& numbers,
+                        const Recording& present, const TuneOptions& options) {
+  TuneResult result{source.reading.catalog, *source.compiled, numbers, present, {}, {}, {}, {}, {}};
+  if (!options.fail_under.empty()) result.fail_under = degree_of(options.fail_under);
+  return result;
+}
+
 int write_reports(const TuneResult& result, const TuneOptions& options) {
   const TuneFormat& format = *find_named(tune_formats(), options.format);
   const int status =

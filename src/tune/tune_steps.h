@@ -34,6 +34,11 @@ namespace cbc::cli {
 [[nodiscard]] int report_unreadable(const std::vector<Diagnostic>& findings,
                                     const TuneOptions& options);
 
+/// A result without any number looked at yet. All but the options must outlive it.
+[[nodiscard]] TuneResult begin_result(const CheckedCatalog& source,
+                                      const std::vector<TunableNumber>& numbers,
+                                      const Recording& present, const TuneOptions& options);
+
 /// Writes to standard output, and the page. Returns the exit status.
 [[nodiscard]] int write_reports(const TuneResult& result, const TuneOptions& options);
 

@@ -52,8 +52,10 @@ int prepare_outputs(const VerifyOptions& options) {
 class Call {
  public:
   Call(const VerifyOptions& options, Questions questions)
-      : options_(options), questions_(std::move(questions)), catalog_(*questions_.catalog) {
-    result_.catalog = questions_.catalog;
+      : options_(options),
+        questions_(std::move(questions)),
+        catalog_(*questions_.catalog->compiled) {
+    result_.catalog = questions_.catalog->compiled;
     result_.limits = limits_of(options.limits);
     result_.wants_cut_sets = !options.cut_sets.empty();
   }

@@ -220,6 +220,17 @@ std::string change_one(Catalog& catalog, Random& random) {
   return kind.change(catalog, random) ? kind.name : std::string();
 }
 
+void share_a_suitability(Catalog& catalog, Random& random) {
+  if (random.percent(50)) return;
+  const Millionths shared = random.between(1, oracle::whole_degree);
+  catalog.defaults.suitability = shared;
+  for (oracle::Behavior& behavior : catalog.behaviors) {
+    for (oracle::Performance& performance : behavior.performs) {
+      if (random.percent(60)) performance.suitability = shared;
+    }
+  }
+}
+
 bool remove_task(Catalog& catalog, Random& random) {
   if (catalog.tasks.size() < 2) return false;
   for (oracle::Task& task : catalog.tasks) task.listed = true;

@@ -15,6 +15,9 @@ namespace cbc::plain {
 /// such thing. The result need not be a valid catalog.
 [[nodiscard]] std::string change_one(oracle::Catalog& catalog, oracle::Random& random);
 
+/// Of half of the catalogs many pairs get one number, which is the default.
+void share_a_suitability(oracle::Catalog& catalog, oracle::Random& random);
+
 /// Removes a task, what requires and excludes it, and the behaviors that perform nothing else.
 /// False: it was the only one.
 [[nodiscard]] bool remove_task(oracle::Catalog& catalog, oracle::Random& random);

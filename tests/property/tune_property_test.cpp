@@ -16,13 +16,14 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "catalog_changes.h"
 #include "core/compile/compile.h"
 #include "core/script/reader.h"
-#include "core/yaml/document.h"
 #include "demand.h"
 #include "generator.h"
 #include "oracle.h"
 #include "random_cases.h"
+#include "read_yaml.h"
 #include "tune/engine/numbers.h"
 #include "tune/engine/tuner.h"
 #include "yaml_text.h"
@@ -100,26 +101,16 @@ struct Files {
   cbc::Script mission;
 };
 
-template <typename Read>
-auto read(const std::string& text, const Read& read_document) {
-  Diagnostics diagnostics;
-  const auto document = yaml::parse(text, "text", diagnostics);
-  demand(document != nullptr, "no YAML");
-  auto result = read_document(*document, diagnostics);
-  demand(diagnostics.count(Severity::error) == 0, "errors");
-  return result;
-}
-
 Files read_files(const Case& sample, Random& forms) {
   Files files;
-  files.reading = read(catalog_yaml(sample.catalog, forms), [](const auto& document, auto& found) {
-    return understand_catalog(document, found);
-  });
+  files.reading = read_yaml(
+      catalog_yaml(sample.catalog, forms),
+      [](const auto& document, auto& found) { return understand_catalog(document, found); });
   const CompiledCatalog compiled = compile(files.reading.catalog);
-  files.mission = *read(script_yaml(sample.catalog, sample.script, forms),
-                        [&](const auto& document, auto& found) {
-                          return read_script(document, compiled, Severity::note, found);
-                        });
+  files.mission = *read_yaml(script_yaml(sample.catalog, sample.script, forms),
+                             [&](const auto& document, auto& found) {
+                               return read_script(document, compiled, Severity::note, found);
+                             });
   return files;
 }
 
@@ -287,14 +278,7 @@ void check_case(const Case& generated, Random& random, Statistics& statistics) {
 Case generate_tuned_case(std::uint64_t seed) {
   Case sample = generate_case(seed);
   Random random(seed);
-  if (random.percent(50)) return sample;
-  const Millionths shared = random.between(1, whole_degree);
-  sample.catalog.defaults.suitability = shared;
-  for (Behavior& behavior : sample.catalog.behaviors) {
-    for (Performance& performance : behavior.performs) {
-      if (random.percent(60)) performance.suitability = shared;
-    }
-  }
+  plain::share_a_suitability(sample.catalog, random);
   return sample;
 }
 

@@ -11,16 +11,17 @@
 
 #include <gtest/gtest.h>
 
+#include "catalog_changes.h"
 #include "core/catalog/reader.h"
 #include "core/compile/compile.h"
 #include "core/report/move_words.h"
-#include "core/yaml/document.h"
 #include "demand.h"
 #include "model.h"
 #include "plain_comparison.h"
 #include "plain_exploration.h"
 #include "random.h"
 #include "random_cases.h"
+#include "read_yaml.h"
 #include "tune/engine/numbers.h"
 #include "tune/engine/state_tuner.h"
 #include "verify/engine/verification.h"
@@ -37,29 +38,6 @@ constexpr std::uint64_t default_cases = 60;
 constexpr std::size_t numbers_per_case = 2;
 constexpr std::size_t values_inside = 2;
 constexpr std::uint64_t most_states = 500;
-
-CatalogReading read_catalog(const std::string& text) {
-  Diagnostics diagnostics;
-  const auto document = yaml::parse(text, "text", diagnostics);
-  demand(document != nullptr, "no YAML");
-  CatalogReading reading = understand_catalog(*document, diagnostics);
-  demand(diagnostics.count(Severity::error) == 0, "errors");
-  return reading;
-}
-
-/// Of some catalogs many pairs have one number.
-std::string text_of(oracle::Catalog catalog, Random& random) {
-  if (random.percent(50)) {
-    const std::int64_t shared = random.between(1, oracle::whole_degree);
-    catalog.defaults.suitability = shared;
-    for (oracle::Behavior& behavior : catalog.behaviors) {
-      for (oracle::Performance& performance : behavior.performs) {
-        if (random.percent(60)) performance.suitability = shared;
-      }
-    }
-  }
-  return oracle::catalog_yaml(catalog, random);
-}
 
 class CaseCheck {
  public:
@@ -170,11 +148,15 @@ class CaseCheck {
 };
 
 void run_case(std::uint64_t seed, oracle::Results& results) {
-  const VerifyCase sample = generate_verify_case(seed);
+  VerifyCase sample = generate_verify_case(seed);
   Random random(~seed);
-  const std::string text = text_of(sample.source, random);
+  share_a_suitability(sample.source, random);
+  const std::string text = oracle::catalog_yaml(sample.source, random);
   try {
-    const CatalogReading reading = read_catalog(text);
+    const CatalogReading reading =
+        oracle::read_yaml(text, [](const auto& document, auto& diagnostics) {
+          return understand_catalog(document, diagnostics);
+        });
     PropertyFile file;
     file.assumptions = sample.question.assumptions;
     file.properties = sample.question.properties;

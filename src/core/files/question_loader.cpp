@@ -53,14 +53,12 @@ void QuestionLoader::refuse(const InputFile& file, const char* what) {
 }
 
 void QuestionLoader::take_catalog(const std::shared_ptr<const CheckedCatalog>& catalog) {
-  if (catalog == nullptr) return;
-  questions_.catalog = catalog->compiled;
-  questions_.source = catalog;
+  if (catalog != nullptr && catalog->compiled != nullptr) questions_.catalog = catalog;
 }
 
 void QuestionLoader::add_properties(const InputFile& file) {
   std::optional<PropertyFile> properties;
-  if (find_catalog(file)) properties = files_.read_properties(file, *questions_.catalog);
+  if (find_catalog(file)) properties = files_.read_properties(file, *questions_.catalog->compiled);
   if (properties && lacks_properties(*file.document, *properties)) {
     return refuse(file, "has no property, so there is nothing to prove");
   }

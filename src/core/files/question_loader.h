@@ -14,8 +14,7 @@ namespace cbc::cli {
 
 /// What a command line asks about, checked before anything is explored.
 struct Questions {
-  std::shared_ptr<const CompiledCatalog> catalog;
-  std::shared_ptr<const CheckedCatalog> source;  ///< of `catalog`
+  std::shared_ptr<const CheckedCatalog> catalog;  ///< compiled
   std::vector<std::unique_ptr<const PropertyFile>> files;
   std::shared_ptr<const CompiledCatalog> old_catalog;  ///< to compare with, or null
 };

@@ -156,8 +156,7 @@ ConstraintRelaxation::ConstraintRelaxation(const CompiledCatalog& catalog,
 
 bool ConstraintRelaxation::load(const EventRecord& record, const Circumstances& circumstances,
                                 const Assignment* solution) {
-  const SearchStatus status = record.search->result.status;
-  if (status != SearchStatus::optimal && status != SearchStatus::infeasible) return false;
+  if (!is_proven(record.search->result.status)) return false;
   solution_ = solution;
   ProblemBuilder builder(catalog_, circumstances.state);
   builder.load(circumstances.trigger, record.index);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <pybind11/pybind11.h>
 #include <vector>
@@ -33,6 +34,16 @@ struct PythonEvent {
 /// A tuple of events without others.
 [[nodiscard]] py::tuple make_events(std::vector<HandledEvent> events);
 
+template <typename Range, typename ToPython>
+[[nodiscard]] py::tuple make_tuple_of(const Range& items, const ToPython& to_python) {
+  py::tuple made(items.size());
+  std::size_t place = 0;
+  for (const auto& item : items) made[place++] = to_python(item);
+  return made;
+}
+
+/// A value of a situation variable: bool or str.
+[[nodiscard]] py::object to_python(const CompiledCatalog& catalog, VariableValue value);
 [[nodiscard]] py::str name_of_task(const Catalog& catalog, TaskId task);
 [[nodiscard]] py::str name_of_behavior(const Catalog& catalog, BehaviorId behavior);
 

@@ -36,22 +36,15 @@ std::shared_ptr<const Catalog> load_text(const py::object& text, const py::str& 
   return load(read_text(name, "name"), {}, read_text(text, "text"));
 }
 
-py::tuple names_of(const Texts& texts) {
-  py::tuple names(texts.size());
-  for (std::size_t place = 0; place < texts.size(); ++place) names[place] = to_str(texts[place]);
-  return names;
-}
+py::tuple names_of(const Texts& texts) { return make_tuple_of(texts, &to_str); }
 
 py::dict tasks_of(const Catalog& catalog) {
   const CompiledCatalog& compiled = *catalog.compiled;
   py::dict tasks;
   for (const TaskId task : compiled.task_ids) {
-    const auto values = compiled.values[task];
-    py::tuple behaviors(values.size());
-    for (std::size_t place = 0; place < values.size(); ++place) {
-      behaviors[place] = name_of_behavior(catalog, values[place].behavior);
-    }
-    tasks[name_of_task(catalog, task)] = behaviors;
+    tasks[name_of_task(catalog, task)] = make_tuple_of(
+        compiled.values[task],
+        [&](const Value& value) { return name_of_behavior(catalog, value.behavior); });
   }
   return tasks;
 }
@@ -60,11 +53,9 @@ py::dict variables_of(const Catalog& catalog) {
   const CompiledCatalog& compiled = *catalog.compiled;
   py::dict variables;
   for (std::uint32_t variable = 0; variable < compiled.variables.size(); ++variable) {
-    const bool is_boolean = compiled.variables[variable].is_boolean != 0;
     py::tuple values(compiled.variables[variable].value_count);
     for (std::uint32_t place = 0; place < values.size(); ++place) {
-      const std::string_view word = compiled.name_of_value({variable, place});
-      values[place] = is_boolean ? py::object(py::bool_(word == "true")) : py::object(to_str(word));
+      values[place] = to_python(compiled, {variable, place});
     }
     variables[to_str(compiled.name_of_variable(variable))] = values;
   }
@@ -76,6 +67,12 @@ std::string digest_of_catalog(const Catalog& catalog) {
 }
 
 }  // namespace
+
+py::object to_python(const CompiledCatalog& catalog, VariableValue value) {
+  const std::string_view word = catalog.name_of_value(value);
+  if (catalog.variables[value.variable].is_boolean != 0) return py::bool_(word == "true");
+  return to_str(word);
+}
 
 py::str name_of_task(const Catalog& catalog, TaskId task) {
   return to_str(catalog.compiled->name_of_task(task));

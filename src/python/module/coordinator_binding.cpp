@@ -66,8 +66,7 @@ std::shared_ptr<PythonEvent> handle(PythonCoordinator& coordinator, const py::ob
   });
 }
 
-std::optional<std::int32_t> read_priority(const py::object& priority, Verb verb) {
-  if (priority.is_none()) return std::nullopt;
+std::int32_t read_priority(const py::handle& priority, Verb verb) {
   return static_cast<std::int32_t>(
       read_integer(priority, "priority", form_of(verb).lowest_priority, highest_priority));
 }
@@ -79,8 +78,7 @@ std::shared_ptr<PythonEvent> start(PythonCoordinator& coordinator, const py::obj
     Step step;
     step.verb = Verb::start;
     step.subject = read_task(catalog, task);
-    step.priority = static_cast<std::int32_t>(
-        read_integer(priority, "priority", form_of(Verb::start).lowest_priority, highest_priority));
+    step.priority = read_priority(priority, Verb::start);
     step.parameters = read_parameters(catalog, step.subject, parameters);
     return step;
   });
@@ -92,7 +90,7 @@ std::shared_ptr<PythonEvent> stop(PythonCoordinator& coordinator, const py::obje
     Step step;
     step.verb = Verb::stop;
     step.subject = read_task(catalog, task);
-    step.priority = read_priority(priority, Verb::stop);
+    if (!priority.is_none()) step.priority = read_priority(priority, Verb::stop);
     return step;
   });
 }
@@ -185,11 +183,8 @@ py::dict values_of_session(PythonCoordinator& coordinator) {
     const CompiledCatalog& catalog = *session.catalog()->compiled;
     py::dict values;
     for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
-      const std::string_view word =
-          catalog.name_of_value({variable, session.state().value_of(variable)});
-      const bool is_boolean = catalog.variables[variable].is_boolean != 0;
       values[to_str(catalog.name_of_variable(variable))] =
-          is_boolean ? py::object(py::bool_(word == "true")) : py::object(to_str(word));
+          to_python(catalog, {variable, session.state().value_of(variable)});
     }
     return values;
   });
@@ -209,16 +204,19 @@ py::str why(PythonCoordinator& coordinator, const py::object& name) {
 
 // Saved states.
 
-py::bytes save(PythonCoordinator& coordinator) {
-  return with_session(coordinator, [](Session& session) {
-    return py::bytes(write_state(*session.catalog()->compiled, session.snapshot()));
-  });
+py::bytes save(const Session& session) {
+  return write_state(*session.catalog()->compiled, session.snapshot());
 }
 
 void restore_in(Session& session, const py::handle& state) {
   const StateReading reading = read_state(read_text(state, "state"), *session.catalog()->compiled);
   if (!reading.snapshot) raise("UsageError", "cannot use the state: " + reading.error);
   session.resume(*reading.snapshot);
+}
+
+std::uint64_t read_max_nodes(const py::handle& number) {
+  return static_cast<std::uint64_t>(
+      read_integer(number, "max_nodes", 0, std::numeric_limits<std::int64_t>::max()));
 }
 
 std::unique_ptr<PythonCoordinator> make_coordinator(const std::shared_ptr<Catalog>& catalog,
@@ -232,8 +230,7 @@ std::unique_ptr<PythonCoordinator> make_coordinator(const std::shared_ptr<Catalo
     raise("UsageError", "reactive_delay: expected more than 0 seconds, found 0");
   }
   options.timeouts = timeouts;
-  options.max_nodes = static_cast<std::uint64_t>(
-      read_integer(max_nodes, "max_nodes", 0, std::numeric_limits<std::int64_t>::max()));
+  options.max_nodes = read_max_nodes(max_nodes);
   options.time_limit = read_seconds(time_limit, "time_limit");
   Situation first;
   read_situation(*catalog->compiled, situation, first);
@@ -254,8 +251,7 @@ py::list options(PythonCoordinator& coordinator, const py::tuple& priorities) {
   return with_session(coordinator, [&](Session& session) {
     std::vector<std::int32_t> wanted;
     for (const py::handle priority : priorities) {
-      wanted.push_back(
-          static_cast<std::int32_t>(read_integer(priority, "priority", 1, highest_priority)));
+      wanted.push_back(read_priority(priority, Verb::start));
     }
     std::vector<Option> found;
     {
@@ -299,11 +295,8 @@ void bind_option(py::module_& module) {
   type.def_property_readonly(
       "stopped",
       [](const PythonOption& of) {
-        py::list names;
-        for (const TaskId task : of.option.effects.stopped) {
-          names.append(name_of_task(*of.catalog, task));
-        }
-        return py::tuple(names);
+        return make_tuple_of(of.option.effects.stopped,
+                             [&of](TaskId task) { return name_of_task(*of.catalog, task); });
       },
       "Tasks that run now, but would not.");
   type.def_property_readonly(
@@ -316,11 +309,9 @@ void bind_option(py::module_& module) {
   type.def_property_readonly(
       "failed",
       [](const PythonOption& of) {
-        py::list names;
-        for (const BehaviorId behavior : of.option.effects.failed) {
-          names.append(name_of_behavior(*of.catalog, behavior));
-        }
-        return py::tuple(names);
+        return make_tuple_of(of.option.effects.failed, [&of](BehaviorId behavior) {
+          return name_of_behavior(*of.catalog, behavior);
+        });
       },
       "Behaviors whose activation would be tried and fail, as they are faulty.");
   type.def_property_readonly(
@@ -453,7 +444,12 @@ void bind_coordinator(py::module_& module) {
            py::arg("timeouts") = true, py::arg("max_nodes") = 0, py::arg("time_limit") = 0.0);
   bind_verbs(type);
   bind_state(type);
-  type.def("save", &save, "The state, as `cbc solve --state-out` writes it (schema cbc.state/1).");
+  type.def(
+      "save",
+      [](PythonCoordinator& of) {
+        return with_session(of, [](Session& session) { return save(session); });
+      },
+      "The state, as `cbc solve --state-out` writes it (schema cbc.state/1).");
   type.def(
       "restore",
       [](PythonCoordinator& of, const py::object& state) {
@@ -468,16 +464,17 @@ void bind_coordinator(py::module_& module) {
   type.def("__deepcopy__", [copy](PythonCoordinator& of, const py::object&) { return copy(of); });
   type.def(py::pickle(
       [](PythonCoordinator& of) {
-        const SessionOptions limits = of.session->options();
-        return py::make_tuple(std::const_pointer_cast<Catalog>(of.session->catalog()),
-                              limits.max_nodes, limits.time_limit, save(of));
+        return with_session(of, [](Session& session) {
+          const SessionOptions& limits = session.options();
+          return py::make_tuple(std::const_pointer_cast<Catalog>(session.catalog()),
+                                limits.max_nodes, limits.time_limit, save(session));
+        });
       },
       [](const py::tuple& state) {
         if (state.size() != 4) raise("UsageError", "this is not the state of a Coordinator");
         SessionOptions limits;
         if (!py::isinstance<Catalog>(state[0])) raise_type_error("state: expected a Catalog first");
-        limits.max_nodes = static_cast<std::uint64_t>(
-            read_integer(state[1], "max_nodes", 0, std::numeric_limits<std::int64_t>::max()));
+        limits.max_nodes = read_max_nodes(state[1]);
         limits.time_limit = read_integer(state[2], "time_limit", 0, longest_time);
         auto session =
             std::make_unique<Session>(py::cast<std::shared_ptr<Catalog>>(state[0]), limits);

@@ -31,12 +31,8 @@ py::object optional_int(const std::optional<std::int32_t>& number) {
 }
 
 py::tuple tasks_of(const PythonChange& change) {
-  const auto tasks = change.of->event.record.tasks_of(change.part);
-  py::tuple names(tasks.size());
-  for (std::size_t place = 0; place < tasks.size(); ++place) {
-    names[place] = name_of_task(change.catalog(), tasks[place]);
-  }
-  return names;
+  return make_tuple_of(change.of->event.record.tasks_of(change.part),
+                       [&](TaskId task) { return name_of_task(change.catalog(), task); });
 }
 
 std::string_view op_of(const Change& change) {
@@ -118,19 +114,15 @@ void bind_stop(py::module_& module) {
 
 template <typename Part>
 py::tuple parts_of(const EventHolder& event, const std::vector<Part>& parts) {
-  py::tuple made(parts.size());
-  for (std::size_t place = 0; place < parts.size(); ++place) {
-    made[place] = py::cast(PartOfEvent<Part>{event, parts[place]});
-  }
-  return made;
+  return make_tuple_of(parts, [&](const Part& part) {
+    return py::cast(PartOfEvent<Part>{event, part});
+  });
 }
 
 py::tuple tuple_of(const std::vector<EventHolder>& events) {
-  py::tuple made(events.size());
-  for (std::size_t place = 0; place < events.size(); ++place) {
-    made[place] = py::cast(std::const_pointer_cast<PythonEvent>(events[place]));
-  }
-  return made;
+  return make_tuple_of(events, [](const EventHolder& event) {
+    return py::cast(std::const_pointer_cast<PythonEvent>(event));
+  });
 }
 
 py::object subject_of(const PythonEvent& event) {
@@ -143,11 +135,8 @@ py::object subject_of(const PythonEvent& event) {
 
 /// "start DELIVER, priority 2: accepted"
 std::string words_of_event(const PythonEvent& event) {
-  const EventRecord& record = event.event.record;
-  const auto& step = event.event.moment->call.step;
-  const bool is_asked_for = record.origin == Origin::script && step;
-  return event_and_outcome(*event.event.moment->catalog->compiled, record,
-                           is_asked_for ? &*step : nullptr);
+  const auto& [moment, record, proven] = event.event;
+  return event_and_outcome(*moment->catalog->compiled, record, moment->step_of(record));
 }
 
 template <typename Answer>

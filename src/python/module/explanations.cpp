@@ -44,9 +44,7 @@ class Repetition final : public EventListener {
 
  private:
   void on_event(const EventRecord& record) override {
-    const auto& step = moment_.call.step;
-    const bool is_asked_for = record.origin == Origin::script && step;
-    take_(record, is_asked_for ? &*step : nullptr, coordinator_->state());
+    take_(record, moment_.step_of(record), coordinator_->state());
   }
 
   const Moment& moment_;

@@ -127,8 +127,7 @@ void Session::on_event(const EventRecord& record) {
   event.record = record;
   event.record.search = nullptr;
   if (record.search != nullptr) {
-    const SearchStatus status = record.search->result.status;
-    event.is_proven = status == SearchStatus::optimal || status == SearchStatus::infeasible;
+    event.is_proven = is_proven(record.search->result.status);
     const GroupId group = record.search->group;
     if (record.outcome == Outcome::accepted) {
       decisions_[group] = moment_;

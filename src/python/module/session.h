@@ -43,6 +43,11 @@ struct Moment {
   SessionOptions options;
   Snapshot before;
   Call call;
+
+  /// What asked for an event of the call; null: the clock did.
+  [[nodiscard]] const Step* step_of(const EventRecord& record) const {
+    return record.origin == Origin::script && call.step ? &*call.step : nullptr;
+  }
 };
 
 /// What one event did.

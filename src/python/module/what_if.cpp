@@ -37,9 +37,7 @@ Option option_of(const Session& session, const Snapshot& before, const PossibleM
   for (const PossibleMove::Event& event : move.events) {
     HandledEvent& handled = option.events.emplace_back(HandledEvent{moment, event.record, true});
     handled.record.search = nullptr;
-    if (event.search == nullptr) continue;
-    const SearchStatus status = event.search->result.status;
-    handled.is_proven = status == SearchStatus::optimal || status == SearchStatus::infeasible;
+    if (event.search != nullptr) handled.is_proven = is_proven(event.search->result.status);
   }
   const State& after = move.after();
   for (const TaskId task : option.effects.started) {

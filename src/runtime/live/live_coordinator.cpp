@@ -212,10 +212,7 @@ void HandledEvents::on_event(const EventRecord& record) {
   event.priority = record.priority;
   if (record.verb == Verb::finish) event.cause = record.cause;
   event.outcome = record.outcome;
-  if (record.search != nullptr) {
-    const SearchStatus status = record.search->result.status;
-    event.is_proven = status == SearchStatus::optimal || status == SearchStatus::infeasible;
-  }
+  if (record.search != nullptr) event.is_proven = is_proven(record.search->result.status);
   event.changes = std::span(changes_).last(record.changes.size());
   event.stopped_tasks = std::span(stopped_tasks_).last(record.stopped_tasks.size());
 }

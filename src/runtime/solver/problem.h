@@ -60,6 +60,11 @@ enum class SearchStatus : std::uint8_t {
   return status == SearchStatus::optimal || status == SearchStatus::feasible;
 }
 
+/// No limit stopped the search.
+[[nodiscard]] constexpr bool is_proven(SearchStatus status) {
+  return status == SearchStatus::optimal || status == SearchStatus::infeasible;
+}
+
 /// How good the best solution of a problem may be at most, where a limit ended the search before
 /// the proof (docs/semantics.md, "Search limits").
 struct SearchBound {

@@ -128,10 +128,10 @@ CatalogComparison StateTuner::compare(const CompiledCatalog& changed,
 
 /// The event in both catalogs, as the script of the comparison shows it.
 RunDifference StateTuner::describe(const EventDifference& difference,
-                                   const Catalog& changed) const {
+                                   const CompiledCatalog& changed) const {
   const Missions missions{&difference.witness.script};
-  const Recording before = record(compile(catalog_), missions, Until::end);
-  const Recording now = record(compile(changed), missions, Until::end);
+  const Recording before = record(compiled_, missions, Until::end);
+  const Recording now = record(changed, missions, Until::end);
   RunDifference result;
   if (const auto found = find_difference(before, now)) {
     result = *found;
@@ -163,7 +163,7 @@ void StateTuner::find_end(std::size_t number, bool upwards, StateTolerance& foun
   Millionths& end = upwards ? found.tolerance.values.high : found.tolerance.values.low;
   std::optional<RunDifference>& beyond = upwards ? found.tolerance.above : found.tolerance.below;
   Catalog catalog = catalog_;
-  CompiledCatalog compiled = compile(catalog);
+  CompiledCatalog compiled = compiled_;
   StateSurvey further;
   const StateSurvey* known = &present_;
   Millionths value = changed.value;
@@ -181,7 +181,7 @@ void StateTuner::find_end(std::size_t number, bool upwards, StateTolerance& foun
     compiled = compile(catalog);
     const CatalogComparison comparison = compare(compiled, groups);
     if (const EventDifference* const first = comparison.first_difference()) {
-      beyond = describe(*first, catalog);
+      beyond = describe(*first, compiled);
       return find_broken(compiled, *beyond, found.end);
     }
     further = survey(compiled, groups, further_options());

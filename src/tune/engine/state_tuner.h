@@ -27,8 +27,8 @@ struct StateSurvey {
   std::optional<std::string> error;   ///< see Exploration
 };
 
-/// Tolerances over every decision in every reachable state of a catalog: tune.md, "--all-states".
-/// May be asked by several threads at once.
+/// Tolerances over every decision in every reachable state of a catalog. May be asked by several
+/// threads at once.
 class StateTuner {
  public:
   /// `file`: what is assumed, and promises that may break. `options`: of the first exploration;
@@ -57,7 +57,7 @@ class StateTuner {
   [[nodiscard]] CatalogComparison compare(const CompiledCatalog& changed,
                                           const std::vector<GroupId>& groups) const;
   [[nodiscard]] RunDifference describe(const EventDifference& difference,
-                                       const Catalog& changed) const;
+                                       const CompiledCatalog& changed) const;
   void find_broken(const CompiledCatalog& changed, RunDifference& difference,
                    std::optional<ExplorationEnd>& end) const;
   void find_end(std::size_t number, bool upwards, StateTolerance& found) const;

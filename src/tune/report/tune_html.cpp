@@ -69,7 +69,7 @@ std::string tune_to_html(const TuneResult& result) {
         fmt::format("<p>{}; {}, {}</p>\n",
                     xml_text(describe_assumptions(result.catalog, {file.assumptions, file.path})),
                     quantity(result.states->states, "state"),
-                    quantity(result.present.decisions.size(), "different decision"));
+                    quantity(result.states->decisions, "different decision"));
   }
   html += fmt::format(
       "<h2>Tolerances</h2>\n<p>The most fragile first. A bar is what the number may be while {}; "

@@ -177,10 +177,7 @@ constexpr auto report = object(
                            }),
                     member("states", count, "", &TunedStates::states),
                     member("transitions", count, "", &TunedStates::transitions),
-                    member("decisions", count, "Different ones.",
-                           [](const TunedStates&, const TuneResult& result) {
-                             return result.present.decisions.size();
-                           })),
+                    member("decisions", count, "Different ones.", &TunedStates::decisions)),
              "With --all-states: what was looked at in place of missions, of all groups.",
              &TuneResult::states)
         .on_line(),

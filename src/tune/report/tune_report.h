@@ -27,6 +27,7 @@ struct TunedNumber {
 struct TunedStates {
   std::uint64_t states = 0;
   std::uint64_t transitions = 0;
+  std::size_t decisions = 0;  ///< different ones
   const PropertyFile& file;
 };
 
@@ -34,7 +35,7 @@ struct TuneResult {
   const Catalog& source;
   const CompiledCatalog& catalog;  ///< of the source
   const std::vector<TunableNumber>& numbers;
-  const Recording& present;                      ///< of states only the decisions
+  const Recording& present;                      ///< of states an empty one
   std::vector<std::string> missions;             ///< their files
   std::vector<TunedNumber> tuned;                ///< by number
   std::optional<std::vector<PairRepair>> pairs;  ///< if they were tried: the smallest changes first

@@ -69,7 +69,8 @@ std::string tune_to_text(const TuneResult& result, const Style& style, std::size
             quantity(result.numbers.size(), "number"),
             result.states ? quantity(result.states->states, "state")
                           : quantity(result.missions.size(), "mission"),
-            quantity(present.decisions.size(), "different decision"));
+            quantity(result.states ? result.states->decisions : present.decisions.size(),
+                     "different decision"));
   if (result.states) {
     const PropertyFile& file = result.states->file;
     text.add(assumptions_to_text(result.catalog, {file.assumptions, file.path}, columns));
