@@ -4,7 +4,8 @@
 set(python_package python3-cbc-catalog)
 set(python_doc_dir "${CMAKE_INSTALL_DATAROOTDIR}/doc/${python_package}")
 install(FILES LICENSE DESTINATION "${python_doc_dir}" RENAME copyright COMPONENT python)
-install(FILES docs/python.md DESTINATION "${python_doc_dir}" COMPONENT python)
+install(FILES docs/python.md docs/ros.md DESTINATION "${python_doc_dir}" COMPONENT python)
+install(DIRECTORY docs/ros DESTINATION "${python_doc_dir}" USE_SOURCE_PERMISSIONS COMPONENT python)
 set(python_changelog "${CMAKE_CURRENT_BINARY_DIR}/python_changelog.Debian")
 set(name_of_program_package "${package_name}")
 set(package_name "${python_package}") # what the changelog is of
