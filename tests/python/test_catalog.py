@@ -1,4 +1,5 @@
 import copy
+import html.parser
 import pickle
 import threading
 
@@ -91,3 +92,39 @@ def test_several_threads_use_one_catalog(catalog):
 def test_picture(catalog):
     picture = catalog._repr_svg_()
     assert picture is None or "<svg" in picture
+
+
+class Table(html.parser.HTMLParser):
+    """The cells of a table."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.rows = []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        if tag == "tr":
+            self.rows.append([])
+        elif tag in ("td", "th"):
+            self.rows[-1].append("")
+
+    def handle_data(self, data):
+        if self.rows:
+            self.rows[-1][-1] += data
+
+
+def test_table_of_a_robot():
+    robot = cbc.Coordinator(cbc.Catalog.from_text(ROBOT))
+    robot.start("DRIVE", 3)
+    robot.fault("BEACON")
+    robot.situation({"LIFT_UP": False})
+    text = robot._repr_html_()
+    table = Table(text)
+    assert [row[:3] for row in table.rows[1:]] == [
+        [task, behavior, str(robot.requests.get(task, ""))] for task, behavior in robot.running.items()]
+    assert all(row[3].startswith("why ") for row in table.rows[1:])
+    for part in ("PEOPLE: none", "cannot be activated: LIFT_UP", "faulty: BEACON", "will start: SIGNAL"):
+        assert part in text
+    strange = cbc.Coordinator(cbc.Catalog.from_text("behaviors:\n- {behavior: 'a<b', task: T}\n"))
+    strange.start("T")
+    assert Table(strange._repr_html_()).rows[1][1] == "a<b"

@@ -1,6 +1,7 @@
 """The commands of the program: the same results as on the command line, and how they end."""
 
 import copy
+import html
 import inspect
 import json
 import os
@@ -176,3 +177,13 @@ def test_ctrl_c_while_a_check_begins(tmp_path, monkeypatch):
         cbc.lint("robot.yaml")
     assert started[0].returncode == -signal.SIGKILL
     assert signal.getsignal(signal.SIGINT) is handler
+
+
+def test_a_notebook_shows_the_page(tmp_path):
+    page = tmp_path / "mission.html"
+    report = cbc.solve(SOURCE / "catalogs" / "quadrotor.yaml", SOURCE / "catalogs" / "quadrotor.mission.yaml",
+                       html=page)
+    shown = report._repr_html_()
+    assert html.unescape(shown.split('srcdoc="')[1].split('"')[0]) == page.read_text(encoding="utf-8")
+    assert pickle.loads(pickle.dumps(report))._repr_html_() == shown
+    assert cbc.lint(SOURCE / "catalogs" / "quadrotor.yaml")._repr_html_() is None

@@ -14,6 +14,7 @@ from ._build import VERSION as __version__
 from ._checks import coverage, lint, solve, sweep, tune, verify
 from ._errors import CatalogError, Error, Finding, UnknownName, UsageError
 from ._native import Catalog, Change, Coordinator, Event, Option, StoppedTask
+from ._notebook import table_of as _table_of
 from ._program import picture as _picture
 from ._records import Record, Report
 
@@ -39,11 +40,5 @@ __all__ = [
     "verify",
 ]
 
-
-def _repr_svg_(self):
-    """The graph of the catalog, for notebooks; None without Graphviz."""
-    return _picture(self)
-
-
-Catalog._repr_svg_ = _repr_svg_
-del _repr_svg_
+Catalog._repr_svg_ = lambda self: _picture(self)
+Coordinator._repr_html_ = lambda self: _table_of(self)

@@ -164,7 +164,9 @@ def run(command: str, inputs: Sequence[Union[str, "os.PathLike[str]", Catalog]],
         status, output, messages = execute(_command_line(command, inputs, options, files))
         output, messages = files.restore_names(output), files.restore_names(messages)
     if status in (0, 1) and output:
-        return Report(json.loads(output), status == 0)
+        file = options.get("html")
+        page = None if file is None or not Path(file).is_file() else Path(file).read_text(encoding="utf-8")
+        return Report(json.loads(output), status == 0, page)
     message = messages.strip() or f"the program cbc ended with status {status}"
     if status == 2:
         findings = findings_in(messages)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import difflib
+import html
 from collections.abc import Iterator
-from typing import Any, Dict, Tuple
+from typing import Any, Dict, Optional, Tuple
 
 from ._errors import UnknownName
 
@@ -110,14 +111,17 @@ class Record:
 
 
 class Report(Record):
-    """The result of a check: what `--format json` writes, and whether the exit status was 0."""
+    """The result of a check: what `--format json` writes, and whether the exit status was 0. A notebook
+    shows the page that `html` asked for."""
 
-    __slots__ = ("passed",)
+    __slots__ = ("passed", "_page")
     passed: bool
+    _page: Optional[str]
 
-    def __init__(self, members: Dict[str, Any], passed: bool) -> None:
+    def __init__(self, members: Dict[str, Any], passed: bool, page: Optional[str] = None) -> None:
         super().__init__(members)
         object.__setattr__(self, "passed", passed)
+        object.__setattr__(self, "_page", page)
 
     def _key(self) -> Tuple[Any, ...]:
         return self._members, self.passed
@@ -125,7 +129,12 @@ class Report(Record):
     __hash__ = Record.__hash__
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        return type(self), (self.to_json(), self.passed)
+        return type(self), (self.to_json(), self.passed, self._page)
+
+    def _repr_html_(self) -> Optional[str]:
+        if self._page is None:
+            return None
+        return f'<iframe width="100%" height="700" srcdoc="{html.escape(self._page)}"></iframe>'
 
     def __repr__(self) -> str:
         return f"<Report {self._members.get('schema')}: {'passed' if self.passed else 'not passed'}>"
