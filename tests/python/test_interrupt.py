@@ -74,6 +74,15 @@ def test_ctrl_c_in_a_search():
     assert robot.fault("B0_0").outcome == "unchanged"
 
 
+def test_ctrl_c_in_questions():
+    robot = cbc.Coordinator(hard_catalog(), max_nodes=15000)  # seconds of search, which questions repeat
+    check_interrupted(robot, robot.options)
+    event = robot.start("JOB")
+    assert event.accepted
+    for question in (lambda: robot.why("JOB"), event.why, event.to_json):
+        check_interrupted(robot, question)
+
+
 def test_a_limit_ends_a_search():
     robot = cbc.Coordinator(hard_catalog(), time_limit=0.1)
     event = robot.start("JOB")

@@ -44,13 +44,8 @@ auto with_session(PythonCoordinator& coordinator, const Use& use) {
 }
 
 std::vector<HandledEvent> run(Session& session, Call call) {
-  std::optional<std::vector<HandledEvent>> events;
-  {
-    LongCall long_call;
-    events = session.run(std::move(call), [&long_call] { return long_call.is_stopped(); });
-  }
-  if (!events) throw py::error_already_set();  // the signal handler has raised
-  return std::move(*events);
+  return *call_long(
+      [&](const IsStopped& is_stopped) { return session.run(std::move(call), is_stopped); });
 }
 
 /// An event, which `make_step` makes when it is the turn of this thread.
@@ -193,12 +188,9 @@ py::dict values_of_session(PythonCoordinator& coordinator) {
 py::str why(PythonCoordinator& coordinator, const py::object& name) {
   return with_session(coordinator, [&](Session& session) {
     const Subject subject = read_subject(*session.catalog()->compiled, name);
-    std::string text;
-    {
-      const py::gil_scoped_release release;
-      text = explain_present(session, subject);
-    }
-    return to_str(text);
+    return to_str(call_long([&](const IsStopped& is_stopped) {
+      return explain_present(session, subject, is_stopped);
+    }));
   });
 }
 
@@ -253,13 +245,10 @@ py::list options(PythonCoordinator& coordinator, const py::tuple& priorities) {
     for (const py::handle priority : priorities) {
       wanted.push_back(read_priority(priority, Verb::start));
     }
-    std::vector<Option> found;
-    {
-      const py::gil_scoped_release release;
-      found = find_options(session, wanted);
-    }
     py::list made;
-    for (Option& option : found) {
+    for (Option& option : call_long([&](const IsStopped& is_stopped) {
+           return find_options(session, wanted, is_stopped);
+         })) {
       auto event = make_event(std::move(option.events));
       made.append(PythonOption{session.catalog(), std::move(event), std::move(option)});
     }

@@ -7,6 +7,7 @@
 #include "python/module/bindings.h"
 #include "python/module/errors.h"
 #include "python/module/explanations.h"
+#include "python/module/long_call.h"
 #include "runtime/base/text.h"
 
 namespace cbc::python {
@@ -141,12 +142,8 @@ std::string words_of_event(const PythonEvent& event) {
 
 template <typename Answer>
 py::str ask(const PythonEvent& event, Answer answer) {
-  std::string text;
-  {
-    const py::gil_scoped_release release;
-    text = answer(event.event);
-  }
-  return to_str(text);
+  return to_str(
+      call_long([&](const IsStopped& is_stopped) { return answer(event.event, is_stopped); }));
 }
 
 }  // namespace

@@ -30,15 +30,16 @@ class Repetition final : public EventListener {
  public:
   using Take = std::function<void(const EventRecord& record, const Step* step, const State& state)>;
 
-  Repetition(const Moment& moment, const ExplanationOptions& explain, Take take)
+  Repetition(const Moment& moment, const ExplanationOptions& explain, const IsStopped& is_stopped,
+             Take take)
       : moment_(moment), take_(std::move(take)) {
-    CoordinatorOptions options = to_internal(moment.options);
+    CoordinatorOptions options = to_internal(moment.options, is_stopped);
     options.find_conflicts = true;
     options.explain = explain;
     Coordinator coordinator(*moment.catalog->compiled, options, *this);
     coordinator_ = &coordinator;
     coordinator.resume(moment.before);
-    (void)make_call(coordinator, moment.call);  // it was ok the first time
+    (void)make_call(coordinator, moment.call);  // it was ok the first time, or is stopped
     coordinator_ = nullptr;
   }
 
@@ -59,10 +60,10 @@ std::string describe_rejected(const CompiledCatalog& catalog, const EventRecord&
   return text;
 }
 
-void repeat(const HandledEvent& event, const Repetition::Take& take) {
+void repeat(const HandledEvent& event, const IsStopped& is_stopped, const Repetition::Take& take) {
   ExplanationOptions explain;
   explain.displaced = true;
-  const Repetition repetition(*event.moment, explain,
+  const Repetition repetition(*event.moment, explain, is_stopped,
                               [&](const EventRecord& record, const Step* step, const State& state) {
                                 if (record.index == event.record.index) take(record, step, state);
                               });
@@ -70,10 +71,10 @@ void repeat(const HandledEvent& event, const Repetition::Take& take) {
 
 }  // namespace
 
-std::string explain_event(const HandledEvent& event) {
+std::string explain_event(const HandledEvent& event, const IsStopped& is_stopped) {
   const CompiledCatalog& catalog = *event.moment->catalog->compiled;
   std::string text;
-  repeat(event, [&](const EventRecord& record, const Step* step, const State& state) {
+  repeat(event, is_stopped, [&](const EventRecord& record, const Step* step, const State& state) {
     if (record.outcome == Outcome::rejected) {
       text = describe_rejected(catalog, record);
       return;
@@ -88,10 +89,10 @@ std::string explain_event(const HandledEvent& event) {
   return text;
 }
 
-std::string event_to_json(const HandledEvent& event) {
+std::string event_to_json(const HandledEvent& event, const IsStopped& is_stopped) {
   const CompiledCatalog& catalog = *event.moment->catalog->compiled;
   std::string text;
-  repeat(event, [&](const EventRecord& record, const Step* step, const State& state) {
+  repeat(event, is_stopped, [&](const EventRecord& record, const Step* step, const State& state) {
     append_event(text, catalog, record, step, state, {});
   });
   return text;
@@ -123,7 +124,8 @@ std::string explain_undecided(const Session& session, TaskId task) {
 
 }  // namespace
 
-std::string explain_present(const Session& session, const Subject& subject) {
+std::string explain_present(const Session& session, const Subject& subject,
+                            const IsStopped& is_stopped) {
   const CompiledCatalog& catalog = *session.catalog()->compiled;
   const TaskId task =
       subject.is_task
@@ -132,7 +134,7 @@ std::string explain_present(const Session& session, const Subject& subject) {
   const GroupId group = catalog.tasks[task].group;
   const auto& rejection = session.rejection_of(group);
   if (subject.is_task && rejection && rejection->record.task == task) {
-    return explain_event(*rejection);
+    return explain_event(*rejection, is_stopped);
   }
   const std::shared_ptr<const Moment> moment = session.decision_of(group);
   if (moment == nullptr) return explain_undecided(session, task);
@@ -140,7 +142,8 @@ std::string explain_present(const Session& session, const Subject& subject) {
   explain.why = {subject};
   std::string text;
   const Repetition repetition(
-      *moment, explain, [&](const EventRecord& record, const Step* step, const State& state) {
+      *moment, explain, is_stopped,
+      [&](const EventRecord& record, const Step* step, const State& state) {
         if (record.outcome != Outcome::accepted || record.search->group != group) return;
         text = concat("at ", format_time(record.time), " s, ",
                       event_and_outcome(catalog, record, step));

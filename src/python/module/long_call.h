@@ -36,6 +36,8 @@ class LongCall {
     return was_interrupted_;
   }
 
+  [[nodiscard]] bool was_interrupted() const { return was_interrupted_; }
+
   /// To be called before anything of Python.
   void take_gil() {
     if (released_ != nullptr) PyEval_RestoreThread(released_);
@@ -51,6 +53,16 @@ class LongCall {
   PyThreadState* released_ = nullptr;
   bool was_interrupted_ = false;
 };
+
+/// What `use` returns, which takes an IsStopped. Throws what a signal handler has raised.
+template <typename Use>
+auto call_long(const Use& use) {
+  LongCall call;
+  auto result = use([&call] { return call.is_stopped(); });
+  call.take_gil();
+  if (call.was_interrupted()) throw pybind11::error_already_set();
+  return result;
+}
 
 /// Lets one thread at a time use an object. Whoever waits for it does not keep the GIL, which the
 /// other one may need.

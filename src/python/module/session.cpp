@@ -8,13 +8,15 @@
 
 namespace cbc::python {
 
-CoordinatorOptions to_internal(const SessionOptions& options) {
+CoordinatorOptions to_internal(const SessionOptions& options, const IsStopped& is_stopped) {
   CoordinatorOptions internal;
   internal.reactive_delay = options.reactive_delay;
   internal.timeouts = options.timeouts;
   internal.search.max_nodes = options.max_nodes;
   internal.search.time_limit = std::chrono::microseconds(options.time_limit);
   internal.find_conflicts = false;  // whoever asks why finds them
+  internal.is_stopped = is_stopped;
+  internal.search.is_stopped = is_stopped;
   return internal;
 }
 
@@ -46,14 +48,15 @@ std::unique_ptr<Session> Session::clone() const {
 }
 
 void Session::make_coordinator() {
-  CoordinatorOptions internal = to_internal(options_);
-  internal.is_stopped = [this] {
-    was_stopped_ = was_stopped_ || (is_stopped_ != nullptr && (*is_stopped_)());
-    return was_stopped_;
-  };
-  internal.search.is_stopped = internal.is_stopped;
   EventListener& listener = *this;  // nobody else may know that it is one
-  coordinator_.emplace(*catalog_->compiled, internal, listener);
+  coordinator_.emplace(*catalog_->compiled,
+                       to_internal(options_,
+                                   [this] {
+                                     was_stopped_ = was_stopped_ ||
+                                                    (is_stopped_ != nullptr && (*is_stopped_)());
+                                     return was_stopped_;
+                                   }),
+                       listener);
 }
 
 void Session::begin(const Situation& situation) {

@@ -33,7 +33,11 @@ struct SessionOptions {
   Microseconds time_limit = 0;
 };
 
-[[nodiscard]] CoordinatorOptions to_internal(const SessionOptions& options);
+/// Asked again and again in a call; true ends it.
+using IsStopped = std::function<bool()>;
+
+[[nodiscard]] CoordinatorOptions to_internal(const SessionOptions& options,
+                                             const IsStopped& is_stopped = {});
 
 /// A call with the state before it. The coordinator does the same whenever it is asked from the
 /// same state, so all that anybody may ask later about an event can be found by doing it again. An
@@ -61,9 +65,6 @@ struct HandledEvent {
 struct CallFault : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-
-/// Asked again and again in a call; true ends it.
-using IsStopped = std::function<bool()>;
 
 /// Does a call.
 [[nodiscard]] Coordinator::Status make_call(Coordinator& coordinator, const Call& call);

@@ -57,16 +57,17 @@ Option option_of(const Session& session, const Snapshot& before, const PossibleM
 
 }  // namespace
 
-std::vector<Option> find_options(const Session& session, std::span<const std::int32_t> priorities) {
+std::vector<Option> find_options(const Session& session, std::span<const std::int32_t> priorities,
+                                 const IsStopped& is_stopped) {
   const CompiledCatalog& catalog = *session.catalog()->compiled;
   const Snapshot before = session.snapshot();
   const std::vector<Step> steps =
       list_moves(catalog, session.state(), choice_in(catalog, session.state(), priorities));
   std::vector<Option> options;
   const RunResult result = try_moves(
-      catalog, to_internal(session.options()), before, steps,
+      catalog, to_internal(session.options(), is_stopped), before, steps,
       [&](const PossibleMove& move) { options.push_back(option_of(session, before, move)); });
-  if (result.status != Coordinator::Status::ok) {
+  if (result.status == Coordinator::Status::too_many_clock_events) {
     throw CallFault("what could happen next takes too many events of the clock");
   }
   return options;

@@ -21,8 +21,9 @@ struct Option {
 };
 
 /// What could happen next, in the order of `cbc solve --what-if`; the clock comes last. Starts have
-/// each of the priorities, which ascend. Needs no GIL.
+/// each of the priorities, which ascend. Means nothing once `is_stopped` has ended it.
 [[nodiscard]] std::vector<Option> find_options(const Session& session,
-                                               std::span<const std::int32_t> priorities);
+                                               std::span<const std::int32_t> priorities,
+                                               const IsStopped& is_stopped);
 
 }  // namespace cbc::python

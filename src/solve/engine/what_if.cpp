@@ -273,6 +273,7 @@ RunResult try_moves(const CompiledCatalog& catalog, const CoordinatorOptions& op
     coordinator.resume(snapshot);
     recorder.begin(coordinator, &step);
     status = coordinator.handle(event_of(step));
+    if (options.is_stopped && options.is_stopped()) status = Status::stopped;
     if (status != Status::ok) break;
     recorder.end();
   }
