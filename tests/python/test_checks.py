@@ -1,5 +1,6 @@
 """The commands of the program: the same results as on the command line, and how they end."""
 
+import collections.abc
 import copy
 import html
 import inspect
@@ -119,7 +120,7 @@ def test_no_program(monkeypatch):
 
 # What is not an option of a function: output goes to Python, and these are other commands.
 LEFT_OUT = {"help", "format", "output", "brief", "fix", "diff", "stdin_filename", "explain", "list_rules",
-            "state_out", "state_in", "clock", "serve", "replay", "to_script", "against"}
+            "write", "write_missing", "state_out", "state_in", "clock", "serve", "replay", "to_script", "against"}
 
 
 @pytest.mark.parametrize("check", [cbc.lint, cbc.solve, cbc.verify, cbc.coverage, cbc.sweep, cbc.tune])
@@ -187,3 +188,25 @@ def test_a_notebook_shows_the_page(tmp_path):
     assert html.unescape(shown.split('srcdoc="')[1].split('"')[0]) == page.read_text(encoding="utf-8")
     assert pickle.loads(pickle.dumps(report))._repr_html_() == shown
     assert cbc.lint(SOURCE / "catalogs" / "quadrotor.yaml")._repr_html_() is None
+
+
+def test_a_warning_is_not_the_reason(tmp_path):
+    catalog = tmp_path / "robot.yaml"
+    catalog.write_text("situation:\n- variable: UNUSED\nbehaviors:\n- {behavior: GO_FAST, task: GO}\n")
+    assert "UNUSED" in run_cbc("solve", catalog, tmp_path / "none.yaml")[2]
+    for call, reason in ((lambda: cbc.solve(catalog, tmp_path / "none.yaml"), "none.yaml"),
+                         (lambda: cbc.solve(catalog), "no event script"),
+                         (lambda: cbc.verify(catalog, cut_sets=["GOO"]), "did you mean 'GO'")):
+        with pytest.raises(cbc.UsageError, match=reason) as found:
+            call()
+        assert "UNUSED" not in str(found.value)
+
+
+def test_records_are_mappings():
+    report = cbc.solve(SOURCE / "catalogs" / "quadrotor.yaml", SOURCE / "catalogs" / "quadrotor.mission.yaml")
+    event = report.runs[0].events[0]
+    assert isinstance(event, collections.abc.Mapping)
+    assert event.running == event.to_json()["running"] == dict(event.running)
+    assert event.running != {"HOVER": "LAND"}
+    assert event.get("outcome") == "accepted" and event.get("nothing", 5) == 5
+    assert set(event.keys()) == set(event)

@@ -1,7 +1,9 @@
 """What is wrong is said, in errors of our own, and changes nothing."""
 
 import math
+import copy
 import pickle
+import types
 
 import pytest
 
@@ -102,3 +104,60 @@ def test_nothing_can_be_changed_from_outside():
             setattr(value, name, 1)
     robot.running.clear()
     assert "DRIVE" in robot.running
+
+
+class Own(cbc.Coordinator):
+    """One that forgets to begin."""
+
+    def __init__(self, catalog=None):
+        if catalog is not None:
+            super().__init__(catalog, situation={"NO_SUCH": True})
+
+
+@pytest.mark.parametrize("call", [
+    lambda: repr(cbc.Coordinator.__new__(cbc.Coordinator)),
+    lambda: cbc.Coordinator.__new__(cbc.Coordinator).start("DRIVE"),
+    lambda: cbc.Coordinator(cbc.Catalog.__new__(cbc.Catalog)),
+    lambda: repr(cbc.Catalog.__new__(cbc.Catalog)),
+    lambda: cbc.Event.__new__(cbc.Event),
+    lambda: cbc.Change.__new__(cbc.Change),
+    lambda: cbc.Option.__new__(cbc.Option),
+    lambda: cbc.StoppedTask.__new__(cbc.StoppedTask),
+    lambda: Own(),
+])
+def test_objects_without_a_value(call):
+    with pytest.raises(TypeError):
+        call()
+
+
+def test_an_object_whose_begin_has_failed():
+    robots = []
+
+    class Kept(Own):
+        def __init__(self):
+            robots.append(self)
+            super().__init__(CATALOG)
+
+    with pytest.raises(cbc.UnknownName):
+        Kept()
+    with pytest.raises(TypeError, match="__init__"):
+        repr(robots[0])
+
+
+def test_mappings_and_sequences():
+    robot = cbc.Coordinator(CATALOG, situation=types.MappingProxyType({"RAIN": True}))
+    assert robot.variables["RAIN"]
+    robot.situation(types.MappingProxyType({"RAIN": False}))
+    assert not robot.variables["RAIN"]
+    assert robot.options(priorities=[1, 2])
+    with pytest.raises(TypeError):
+        robot.options(priorities=5)
+    with pytest.raises(cbc.UsageError, match="twice"):
+        robot.situation({"RAIN": True}, RAIN=False)
+    with pytest.raises(cbc.UsageError, match="NUL"):
+        cbc.Catalog("a\0b")
+
+
+def test_options_can_be_copied():
+    option = cbc.Coordinator(CATALOG).options()[0]
+    assert copy.copy(option) is option and copy.deepcopy(option) is option

@@ -9,6 +9,7 @@ import time
 import pytest
 
 import cbc_catalog as cbc
+from conftest import run_python
 
 # Two behaviors that time out in turn, for ever: a second of it are a thousand events of the clock.
 CYCLE = """
@@ -89,11 +90,57 @@ def test_a_limit_ends_a_search():
     assert event.accepted and not event.proven
 
 
+def test_what_a_limit_of_time_left_is_what_is_told():
+    """To search again would end elsewhere."""
+    robot = cbc.Coordinator(hard_catalog(), time_limit=0.05)
+    event = robot.start("JOB")
+    assert event.to_json()["running"] == robot.running
+    assert "time limit" in event.why()
+    assert "time limit" in robot.why("JOB")
+
+
 def test_too_many_events_of_the_clock():
     robot = endless_robot()
+    why = robot.why("GO")
     with pytest.raises(cbc.Error, match="more than 1000000 events in one call"):
         robot.advance(1e6)
     assert robot.now == 0
+    assert robot.why("GO") == why
+
+
+def test_ctrl_c_while_another_thread_has_the_turn():
+    robot = endless_robot()
+    began = threading.Event()
+
+    def work():
+        began.set()
+        with pytest.raises(cbc.Error):
+            robot.advance(1e6)
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    began.wait()
+    time.sleep(0.05)
+    interrupt_after(0.1)
+    with pytest.raises(KeyboardInterrupt):
+        for _ in range(1000):
+            robot.now
+    thread.join()
+
+
+EXIT = """
+import sys, threading, time
+sys.path.insert(0, {folder!r})
+from test_interrupt import endless_robot
+robot = endless_robot()
+threading.Thread(target=lambda: robot.advance(1e6), daemon=True).start()
+time.sleep(0.2)
+"""
+
+
+def test_the_process_may_end_while_a_thread_is_in_a_call():
+    status, output = run_python("-c", EXIT.format(folder=os.path.dirname(__file__)))
+    assert (status, output) == (0, "")
 
 
 def test_other_threads_go_on_while_a_call_is_long():

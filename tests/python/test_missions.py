@@ -1,6 +1,7 @@
 """Missions through Python and through `cbc solve`: each event is the same."""
 
 import json
+import os
 import shlex
 
 import pytest
@@ -79,6 +80,7 @@ def comparable(event):
 
 
 MISSIONS = list(find_missions())
+COMPARED = []
 
 
 @pytest.mark.parametrize("folder, files", MISSIONS, ids=[f"{m[0].name}-{m[1][-1]}" for m in MISSIONS])
@@ -86,6 +88,7 @@ def test_same_as_solve(folder, files, monkeypatch):
     lines = lines_of(folder, files)
     if lines is None:
         return
+    COMPARED.append(files)
     header, events = lines
     monkeypatch.chdir(folder)
     try:
@@ -110,4 +113,6 @@ def test_same_as_solve(folder, files, monkeypatch):
 
 
 def test_enough_missions_are_compared():
-    assert len(MISSIONS) > 80
+    """Of all; where some run elsewhere, as with xdist, of these."""
+    assert len(MISSIONS) > 250
+    assert not COMPARED or len(COMPARED) > 140 or "PYTEST_XDIST_WORKER" in os.environ

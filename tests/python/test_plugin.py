@@ -137,6 +137,25 @@ def test_files_without_catalog(project):
     assert "1 passed" in project("-k", "both")[1]
 
 
+@pytest.mark.parametrize("paths", ["missions propz", "missions/none.yaml"])
+def test_paths_that_do_not_exist(project, paths):
+    (project.folder / "pytest.ini").write_text(INI.replace("missions properties", paths))
+    status, output = project()
+    assert status == 4 and "there is no file or folder" in output
+
+
+def test_folders_that_pytest_leaves_out(project):
+    (project.folder / "missions").rename(project.folder / "build")
+    (project.folder / "pytest.ini").write_text(INI.replace("missions properties", "build"))
+    output = project("-v")[1]
+    assert "good" in output and "bad" in output
+
+
+def test_coverage_without_a_script(project):
+    status, output = project("--cbc-coverage-fail-under", "5", "-k", "is_fresh")
+    assert status == 1 and "no script was run" in output
+
+
 def test_no_settings(project):
     (project.folder / "pytest.ini").write_text("[pytest]\n")
     status, output = project()

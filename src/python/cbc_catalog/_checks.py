@@ -32,7 +32,7 @@ def verify(*files, scripts=None, html=None, jobs=None, reduce=False, confine=Non
 
 
 def coverage(*files, fail_under=None, merge=False, jobs=None, confine=None, prove=False,
-             write_missing=None, mutants=False, scripts=None, assume=None, max_states=None,
+             mutants=False, scripts=None, assume=None, max_states=None,
              max_memory=None, time_limit=None, max_solutions=None, max_nodes=None, tie_seed=None,
              max_clock_events=None):
     """What event scripts test of a catalog: cbc-coverage(1)."""
@@ -50,7 +50,7 @@ def sweep(*files, jobs=None, stats=False, slowest=None, slowest_by_time=None, me
 
 
 def tune(*files, html=None, only=None, fail_under=None, jobs=None, confine=None, all_states=False,
-         max_states=None, max_memory=None, time_limit=None, margin=None, pairs=False, write=False):
+         max_states=None, max_memory=None, time_limit=None, margin=None, pairs=False):
     """How wrong each number of a catalog may be: cbc-tune(1)."""
     options = locals()
     return run("tune", options.pop("files"), options)

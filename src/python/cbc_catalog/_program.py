@@ -16,7 +16,7 @@ import tempfile
 import threading
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Tuple, Union
+from typing import Any, Callable, Dict, List, Optional, Tuple, Union
 
 from . import _build
 from ._errors import CatalogError, Error, Finding, UsageError
@@ -64,9 +64,10 @@ class _Files:
             raise CatalogError(f"{catalog.path} has changed since it was loaded; load it again")
         return catalog.name if os.path.abspath(catalog.name) == catalog.path else catalog.path
 
-    def restore_names(self, text: str) -> str:
+    def restore_names(self, text: str, written: Callable[[str], str] = lambda name: json.dumps(name)[1:-1]) -> str:
+        """`written`: a name as the text has it, by default in JSON."""
         for file, name in self._renamed:
-            text = text.replace(file, json.dumps(name)[1:-1])
+            text = text.replace(file, written(name))
         return text
 
 
@@ -162,18 +163,24 @@ def run(command: str, inputs: Sequence[Union[str, "os.PathLike[str]", Catalog]],
     with contextlib.ExitStack() as folder:
         files = _Files(folder)
         status, output, messages = execute(_command_line(command, inputs, options, files))
-        output, messages = files.restore_names(output), files.restore_names(messages)
+        output, messages = files.restore_names(output), files.restore_names(messages, str)
     if status in (0, 1) and output:
         file = options.get("html")
         page = None if file is None or not Path(file).is_file() else Path(file).read_text(encoding="utf-8")
         return Report(json.loads(output), status == 0, page)
-    message = messages.strip() or f"the program cbc ended with status {status}"
     if status == 2:
-        findings = findings_in(messages)
-        if findings:
-            raise CatalogError(message, findings)
-        raise UsageError(message)
-    raise Error(f"the program cbc ended with status {status}: {message}")
+        raise error_of(messages)
+    raise Error(f"the program cbc ended with status {status}: {messages.strip()}")
+
+
+def error_of(messages: str) -> Error:
+    """Why a call of the program was refused: by errors in files, or else by how it was called. Then
+    warnings about files, which stand before that, are no reason."""
+    findings = findings_in(messages)
+    if any(finding.severity == "error" for finding in findings):
+        return CatalogError(messages.strip(), findings)
+    complaints = [line[len("cbc: "):] for line in messages.splitlines() if line.startswith("cbc: ")]
+    return UsageError("\n".join(complaints) or messages.strip())
 
 
 def picture(catalog: Catalog) -> Optional[str]:

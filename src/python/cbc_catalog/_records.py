@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import html
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, Dict, Optional, Tuple
 
 from ._errors import UnknownName
@@ -28,9 +28,10 @@ def thaw(value: Any) -> Any:
     return value
 
 
-class Record:
-    """A JSON object: record.name or record["name"]. It has no other names than those of the object,
-    to_json and, of a report, passed."""
+class Record(Mapping[str, Any]):
+    """A JSON object: record.name or record["name"], and equal to a mapping with the same members. Lists
+    are tuples. Where a member has the name of a method (keys, items, values, get, to_json), record["name"]
+    gets it."""
 
     __slots__ = ("_members",)
     _members: Dict[str, Any]
@@ -68,6 +69,9 @@ class Record:
     def __len__(self) -> int:
         return len(self._members)
 
+    def get(self, name: str, default: Any = None) -> Any:
+        return self._members.get(name, default)
+
     def __contains__(self, name: object) -> bool:
         return name in self._members
 
@@ -75,9 +79,11 @@ class Record:
         return [*super().__dir__(), *filter(str.isidentifier, self._members)]
 
     def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Record) or type(self) is not type(other):
+        if isinstance(other, Record):
+            return type(self) is type(other) and self._key() == other._key()
+        if not isinstance(other, Mapping):
             return NotImplemented
-        return self._key() == other._key()
+        return bool(self.to_json() == thaw(freeze(dict(other))))
 
     def __hash__(self) -> int:
         return hash(frozenset(self._members.items()))

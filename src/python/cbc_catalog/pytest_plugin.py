@@ -11,6 +11,7 @@ A script is one test, and each property of a property file is one.
 
 from __future__ import annotations
 
+import fnmatch
 import os
 import xml.etree.ElementTree
 from collections.abc import Iterator
@@ -20,7 +21,7 @@ from typing import Any, Dict, List, Optional, Tuple, Union
 import pytest
 
 from . import _native, _program
-from ._errors import CatalogError, Error
+from ._errors import Error
 from ._native import Catalog, Coordinator
 
 _catalog_key = pytest.StashKey[Catalog]()
@@ -43,15 +44,23 @@ def pytest_configure(config: pytest.Config) -> None:
     config.stash[_coverage_key] = _Coverage(config)
     if config.args_source == pytest.Config.ArgsSource.ARGS:
         return
-    # Without arguments all tests are run, so these, too.
+    # Without arguments all tests are run, so these, too, also in folders that pytest leaves out.
     given = [Path(arg).absolute() for arg in config.args]
+    left_out = config.getini("norecursedirs")
     for path in _paths(config):
-        if not any(folder == path or folder in path.parents for folder in given):
+        above = [folder for folder in given if folder == path or folder in path.parents]
+        is_seen = any(
+            not any(fnmatch.fnmatch(part, pattern) for part in path.relative_to(folder).parts for pattern in left_out)
+            for folder in above)
+        if not is_seen:
             config.args.append(str(path))
 
 
 def _paths(config: pytest.Config) -> List[Path]:
     paths: List[Path] = config.getini("cbc_paths")
+    missing = [str(path) for path in paths if not path.exists()]
+    if missing:
+        raise pytest.UsageError(f"cbc_paths: there is no file or folder {', '.join(missing)}")
     return paths
 
 
@@ -173,8 +182,7 @@ def _run_junit(command: str, inputs: List[str]) -> List[Tuple[str, str]]:
     line = [_program.program(), command, "--format=junit", *inputs]
     status, output, messages = _program.execute(line)
     if status not in (0, 1):
-        findings = _program.findings_in(messages)
-        raise CatalogError(messages.strip(), findings) if findings else Error(messages.strip())
+        raise _program.error_of(messages)
     cases = xml.etree.ElementTree.fromstring(output).iter("testcase")
     return [(case.get("name", ""), _explanation_in(case)) for case in cases]
 
@@ -216,8 +224,11 @@ class _Coverage:
 
     def measure(self) -> bool:
         """Returns whether it is as high as it has to be."""
-        if not self._is_wanted or not _scripts_run:
-            return not (self._is_wanted and self._least)
+        if not self._is_wanted:
+            return True
+        if not _scripts_run:
+            self._text = "cbc: no script was run, so there is no coverage\n"
+            return not self._least
         inputs = list(dict.fromkeys(name for inputs in _scripts_run for name in inputs))
         run = [_program.program(), "coverage"]
         status, self._text, messages = _program.execute([*run, "--format=text", *inputs])

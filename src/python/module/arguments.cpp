@@ -37,6 +37,14 @@ std::vector<std::string_view> list_of(const Texts& texts) {
   raise_unknown(message, name, near);
 }
 
+/// A dict, or another mapping as a dict.
+py::dict read_mapping(const py::handle& mapping, std::string_view what) {
+  if (PyDict_Check(mapping.ptr())) return py::reinterpret_borrow<py::dict>(mapping);
+  const py::object type = py::module_::import("collections.abc").attr("Mapping");
+  if (!py::isinstance(mapping, type)) refuse_type(what, "a mapping", mapping);
+  return py::dict(py::reinterpret_borrow<py::object>(mapping));
+}
+
 }  // namespace
 
 std::string read_name(const py::handle& name, std::string_view what) {
@@ -129,10 +137,10 @@ FinishCause read_cause(const py::handle& cause) {
 std::optional<Parameters> read_parameters(const CompiledCatalog& catalog, std::uint32_t task,
                                           const py::handle& parameters) {
   if (parameters.is_none()) return std::nullopt;
-  if (!PyDict_Check(parameters.ptr())) refuse_type("parameters", "a dict", parameters);
+  const py::dict mapping = read_mapping(parameters, "parameters");
   py::object text;
   try {
-    text = py::module_::import("json").attr("dumps")(parameters, py::arg("allow_nan") = false);
+    text = py::module_::import("json").attr("dumps")(mapping, py::arg("allow_nan") = false);
   } catch (py::error_already_set& error) {
     if (error.matches(PyExc_ValueError) || error.matches(PyExc_RecursionError)) {
       raise("UsageError", concat("parameters: ", std::string(py::str(error.value()))));
@@ -182,6 +190,10 @@ void read_entry(const CompiledCatalog& catalog, const py::handle& key, const py:
                 Situation& situation) {
   const std::string name = read_name(key, "situation");
   if (const auto variable = catalog.find_variable(name)) {
+    for (const VariableValue& other : situation.variables) {
+      if (other.variable != *variable) continue;
+      raise("UsageError", concat("situation: ", quote(name), " is given twice"));
+    }
     situation.variables.push_back({*variable, read_value(catalog, *variable, value)});
     return;
   }
@@ -202,8 +214,7 @@ void read_entry(const CompiledCatalog& catalog, const py::handle& key, const py:
 void read_situation(const CompiledCatalog& catalog, const py::handle& values,
                     Situation& situation) {
   if (values.is_none()) return;
-  if (!PyDict_Check(values.ptr())) refuse_type("situation", "a dict", values);
-  for (const auto& [key, value] : py::reinterpret_borrow<py::dict>(values)) {
+  for (const auto& [key, value] : read_mapping(values, "situation")) {
     read_entry(catalog, key, value, situation);
   }
 }

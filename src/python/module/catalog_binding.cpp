@@ -25,6 +25,9 @@ std::shared_ptr<const Catalog> load(std::string name, std::string path, std::str
 std::shared_ptr<const Catalog> load_file(const py::object& file) {
   const py::module_ os = py::module_::import("os");
   const py::object path = os.attr("fsdecode")(file);
+  if (py::cast<bool>(path.attr("__contains__")(py::str("\0", 1)))) {
+    raise("UsageError", "expected a path, found a NUL character in it");
+  }
   const py::bytes text = py::module_::import("pathlib").attr("Path")(path).attr("read_bytes")();
   const auto bytes = [&os](const py::object& of) {
     return py::cast<std::string>(os.attr("fsencode")(of));

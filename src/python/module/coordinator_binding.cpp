@@ -20,14 +20,6 @@ namespace {
 
 constexpr std::int64_t highest_priority = std::numeric_limits<std::int32_t>::max();
 
-/// A coordinator that any thread may use, one after the other.
-struct PythonCoordinator {
-  std::unique_ptr<Session> session;
-  Turn turn;
-
-  explicit PythonCoordinator(std::unique_ptr<Session> with) : session(std::move(with)) {}
-};
-
 /// Calls `use` with the session while no other thread uses it.
 template <typename Use>
 auto with_session(PythonCoordinator& coordinator, const Use& use) {
@@ -239,10 +231,13 @@ struct PythonOption {
   Option option;
 };
 
-py::list options(PythonCoordinator& coordinator, const py::tuple& priorities) {
+py::list options(PythonCoordinator& coordinator, const py::object& priorities) {
   return with_session(coordinator, [&](Session& session) {
     std::vector<std::int32_t> wanted;
-    for (const py::handle priority : priorities) {
+    if (PySequence_Check(priorities.ptr()) == 0 || PyUnicode_Check(priorities.ptr())) {
+      raise_type_error("priorities: expected a sequence of int");
+    }
+    for (const py::handle priority : py::tuple(priorities)) {
       wanted.push_back(read_priority(priority, Verb::start));
     }
     py::list made;
@@ -267,6 +262,9 @@ py::dict dict_of(const Catalog& catalog, const std::vector<std::pair<TaskId, Val
 void bind_option(py::module_& module) {
   py::class_<PythonOption> type(module, "Option",
                                 "Something that could happen next, and what would come of it.");
+  refuse_instances(type);
+  type.def("__copy__", [](const py::object& option) { return option; });
+  type.def("__deepcopy__", [](const py::object& option, const py::object&) { return option; });
   const auto behaviors = [](const PythonOption& of, const auto& entries) {
     return dict_of(*of.catalog, entries,
                    [&of](BehaviorId behavior) { return name_of_behavior(*of.catalog, behavior); });

@@ -68,6 +68,7 @@ void bind_value(Class& type, AsTuple tuple_of) {
 
 void bind_change(py::module_& module) {
   py::class_<PythonChange> type(module, "Change", "One activation or deactivation of a behavior.");
+  refuse_instances(type);
   type.def_property_readonly(
       "op", [](const PythonChange& change) { return to_str(op_of(change.part)); },
       "'activate' or 'deactivate'.");
@@ -99,6 +100,7 @@ void bind_change(py::module_& module) {
 
 void bind_stop(py::module_& module) {
   py::class_<PythonStop> type(module, "StoppedTask", "A task that an event stopped.");
+  refuse_instances(type);
   type.def_property_readonly(
       "task", [](const PythonStop& stop) { return name_of_task(stop.catalog(), stop.part.task); },
       "The task.");
@@ -136,8 +138,9 @@ py::object subject_of(const PythonEvent& event) {
 
 /// "start DELIVER, priority 2: accepted"
 std::string words_of_event(const PythonEvent& event) {
-  const auto& [moment, record, proven] = event.event;
-  return event_and_outcome(*moment->catalog->compiled, record, moment->step_of(record));
+  const Moment& moment = *event.event.moment;
+  const EventRecord& record = event.event.record;
+  return event_and_outcome(*moment.catalog->compiled, record, moment.step_of(record));
 }
 
 template <typename Answer>
@@ -177,6 +180,7 @@ void bind_events(py::module_& module) {
   bind_stop(module);
   py::class_<PythonEvent, std::shared_ptr<PythonEvent>> type(
       module, "Event", "What one event did. It never changes.");
+  refuse_instances(type);
   const auto record_of = [](const PythonEvent& event) -> const EventRecord& {
     return event.event.record;
   };

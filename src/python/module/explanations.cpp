@@ -69,9 +69,22 @@ void repeat(const HandledEvent& event, const IsStopped& is_stopped, const Repeti
                               });
 }
 
+constexpr std::string_view no_reasons =
+    "the search for it ended at the time limit, so nothing says why it is not another one";
+
 }  // namespace
 
+Told tell(const Moment& moment, const EventRecord& record, const State& state) {
+  const CompiledCatalog& catalog = *moment.catalog->compiled;
+  const Step* const step = moment.step_of(record);
+  Told told;
+  add(told.words, {event_and_outcome(catalog, record, step), {std::string(no_reasons)}}, "");
+  append_event(told.json, catalog, record, step, state, {});
+  return told;
+}
+
 std::string explain_event(const HandledEvent& event, const IsStopped& is_stopped) {
+  if (event.told != nullptr) return event.told->words;
   const CompiledCatalog& catalog = *event.moment->catalog->compiled;
   std::string text;
   repeat(event, is_stopped, [&](const EventRecord& record, const Step* step, const State& state) {
@@ -90,6 +103,7 @@ std::string explain_event(const HandledEvent& event, const IsStopped& is_stopped
 }
 
 std::string event_to_json(const HandledEvent& event, const IsStopped& is_stopped) {
+  if (event.told != nullptr) return event.told->json;
   const CompiledCatalog& catalog = *event.moment->catalog->compiled;
   std::string text;
   repeat(event, is_stopped, [&](const EventRecord& record, const Step* step, const State& state) {
@@ -136,21 +150,23 @@ std::string explain_present(const Session& session, const Subject& subject,
   if (subject.is_task && rejection && rejection->record.task == task) {
     return explain_event(*rejection, is_stopped);
   }
-  const std::shared_ptr<const Moment> moment = session.decision_of(group);
-  if (moment == nullptr) return explain_undecided(session, task);
+  const Decision& decision = session.decision_of(group);
+  if (decision.moment == nullptr) return explain_undecided(session, task);
+  if (decision.told != nullptr) {
+    return concat("at ", format_time(decision.time), " s, ", decision.told->words);
+  }
   ExplanationOptions explain;
   explain.why = {subject};
   std::string text;
-  const Repetition repetition(
-      *moment, explain, is_stopped,
-      [&](const EventRecord& record, const Step* step, const State& state) {
-        if (record.outcome != Outcome::accepted || record.search->group != group) return;
-        text = concat("at ", format_time(record.time), " s, ",
-                      event_and_outcome(catalog, record, step));
-        for (const Why& why : record.explanation.why) {
-          add(text, describe_why(catalog, record, why, state), "  ");
-        }
-      });
+  const Repetition repetition(*decision.moment, explain, is_stopped,
+                              [&](const EventRecord& record, const Step* step, const State& state) {
+                                if (record.index != decision.index) return;
+                                text = concat("at ", format_time(record.time), " s, ",
+                                              event_and_outcome(catalog, record, step));
+                                for (const Why& why : record.explanation.why) {
+                                  add(text, describe_why(catalog, record, why, state), "  ");
+                                }
+                              });
   return text;
 }
 

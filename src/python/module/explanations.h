@@ -10,6 +10,9 @@
 
 namespace cbc::python {
 
+/// What can be said of an event while it happens. `state`: after it.
+[[nodiscard]] Told tell(const Moment& moment, const EventRecord& record, const State& state);
+
 /// Why an event was rejected, or what it displaced and why, in the words of `cbc solve`. The first
 /// line says what happened; reasons follow, indented.
 [[nodiscard]] std::string explain_event(const HandledEvent& event, const IsStopped& is_stopped);

@@ -3,13 +3,26 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <cxxabi.h>
 #include <mutex>
 #include <pybind11/pybind11.h>
 #include <thread>
+#include <unistd.h>
 
 // How events get along with threads and with Ctrl-C.
 
 namespace cbc::python {
+
+/// Takes the GIL again. While the interpreter ends, a thread that wants it is to end, which
+/// Python 3.11 does by unwinding its stack, through what must not throw; so it waits here for the
+/// end of the process instead, as in Python 3.14.
+inline void restore_gil(PyThreadState* state) {
+  try {
+    PyEval_RestoreThread(state);
+  } catch (abi::__forced_unwind&) {
+    for (;;) ::pause();
+  }
+}
 
 /// Most events take microseconds, in which the GIL is kept: to give it away and to wait for it
 /// again would take longer, and much longer while other threads compute. After a millisecond other
@@ -40,7 +53,7 @@ class LongCall {
 
   /// To be called before anything of Python.
   void take_gil() {
-    if (released_ != nullptr) PyEval_RestoreThread(released_);
+    if (released_ != nullptr) restore_gil(released_);
     released_ = nullptr;
   }
 
@@ -65,15 +78,18 @@ auto call_long(const Use& use) {
 }
 
 /// Lets one thread at a time use an object. Whoever waits for it does not keep the GIL, which the
-/// other one may need.
+/// other one may need, and looks for signals.
 class Turn {
  public:
   class Lock {
    public:
     explicit Lock(Turn& turn) : turn_(turn) {
-      if (!turn_.mutex_.try_lock()) {
-        const pybind11::gil_scoped_release release;
-        turn_.mutex_.lock();
+      while (!turn_.mutex_.try_lock()) {
+        PyThreadState* const released = PyEval_SaveThread();
+        const bool has_turn = turn_.mutex_.try_lock_for(std::chrono::milliseconds(50));
+        restore_gil(released);
+        if (has_turn) break;
+        if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
       }
       turn_.owner_ = std::this_thread::get_id();
     }
@@ -93,7 +109,7 @@ class Turn {
   [[nodiscard]] bool is_mine() const { return owner_ == std::this_thread::get_id(); }
 
  private:
-  std::mutex mutex_;
+  std::timed_mutex mutex_;
   std::atomic<std::thread::id> owner_{};
 };
 

@@ -1,9 +1,10 @@
 #include "python/module/session.h"
 
-#include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "core/script/runner.h"
+#include "python/module/explanations.h"
 #include "runtime/base/text.h"
 
 namespace cbc::python {
@@ -69,7 +70,7 @@ void Session::resume(const Snapshot& snapshot) {
   make_coordinator();
   coordinator_->resume(snapshot);
   outcome_ = snapshot.outcome;
-  decisions_.assign(decisions_.size(), nullptr);
+  decisions_.assign(decisions_.size(), {});
   rejections_.assign(rejections_.size(), std::nullopt);
 }
 
@@ -83,6 +84,8 @@ std::optional<std::vector<HandledEvent>> Session::run(Call call, const IsStopped
   using Status = Coordinator::Status;
   moment_ = std::make_shared<const Moment>(Moment{catalog_, options_, snapshot(), std::move(call)});
   events_.clear();
+  replaced_.clear();
+  is_repeatable_ = true;
   is_stopped_ = &is_stopped;
   was_stopped_ = false;
   Status status = Status::ok;
@@ -116,11 +119,10 @@ void Session::go_back(const Moment& moment) {
   make_coordinator();
   coordinator_->resume(moment.before);
   outcome_ = moment.before.outcome;
-  // What the call decided is undone, and what it replaced is not known any more.
-  const auto is_of_call = [&moment](const auto& other) { return other.get() == &moment; };
-  std::replace_if(decisions_.begin(), decisions_.end(), is_of_call, nullptr);
-  for (auto& rejection : rejections_) {
-    if (rejection && is_of_call(rejection->moment)) rejection.reset();
+  for (; !replaced_.empty(); replaced_.pop_back()) {
+    Replaced& replaced = replaced_.back();
+    decisions_[replaced.group] = std::move(replaced.decision);
+    rejections_[replaced.group] = std::move(replaced.rejection);
   }
 }
 
@@ -129,12 +131,16 @@ void Session::on_event(const EventRecord& record) {
   event.moment = moment_;
   event.record = record;
   event.record.search = nullptr;
+  if (record.search != nullptr) event.is_proven = is_proven(record.search->result.status);
+  is_repeatable_ = is_repeatable_ && (event.is_proven || options_.time_limit == 0);
+  if (!is_repeatable_) {
+    event.told = std::make_shared<const Told>(tell(*moment_, record, coordinator_->state()));
+  }
   if (record.search != nullptr) {
-    event.is_proven = is_proven(record.search->result.status);
     const GroupId group = record.search->group;
+    replaced_.push_back({group, decisions_[group], std::exchange(rejections_[group], {})});
     if (record.outcome == Outcome::accepted) {
-      decisions_[group] = moment_;
-      rejections_[group].reset();
+      decisions_[group] = {moment_, record.index, record.time, event.told};
     } else {
       rejections_[group] = event;
     }

@@ -40,8 +40,9 @@ using IsStopped = std::function<bool()>;
                                              const IsStopped& is_stopped = {});
 
 /// A call with the state before it. The coordinator does the same whenever it is asked from the
-/// same state, so all that anybody may ask later about an event can be found by doing it again. An
-/// event that nobody asks about costs no more than this copy.
+/// same state, unless a limit of time ends a search, so all that anybody may ask later about an
+/// event can be found by doing it again. An event that nobody asks about costs no more than this
+/// copy.
 struct Moment {
   std::shared_ptr<const Catalog> catalog;
   SessionOptions options;
@@ -54,11 +55,27 @@ struct Moment {
   }
 };
 
+/// What can be said of an event that cannot be repeated.
+struct Told {
+  std::string words;
+  std::string json;
+};
+
 /// What one event did.
 struct HandledEvent {
   std::shared_ptr<const Moment> moment;  ///< of the call that it is a part of
   EventRecord record;                    ///< without search and explanations
   bool is_proven = true;
+  /// Not null: a limit of time ended a search of the call, so to repeat it may give another answer.
+  std::shared_ptr<const Told> told = nullptr;
+};
+
+/// Which event decided about a group.
+struct Decision {
+  std::shared_ptr<const Moment> moment;  ///< null: none
+  std::uint64_t index = 0;
+  Microseconds time = 0;
+  std::shared_ptr<const Told> told;
 };
 
 /// Why a call was not done. The state is that before it.
@@ -87,10 +104,8 @@ class Session final : private EventListener {
   [[nodiscard]] std::optional<std::vector<HandledEvent>> run(Call call,
                                                              const IsStopped& is_stopped);
 
-  /// The last call in which an event of the group was accepted; null: none.
-  [[nodiscard]] std::shared_ptr<const Moment> decision_of(GroupId group) const {
-    return decisions_[group];
-  }
+  /// The last accepted event of the group.
+  [[nodiscard]] const Decision& decision_of(GroupId group) const { return decisions_[group]; }
   /// The last rejected event of the group since then.
   [[nodiscard]] const std::optional<HandledEvent>& rejection_of(GroupId group) const {
     return rejections_[group];
@@ -111,11 +126,21 @@ class Session final : private EventListener {
   std::optional<Coordinator> coordinator_;
   const IsStopped* is_stopped_ = nullptr;  ///< of the present call
   bool was_stopped_ = false;
-  std::shared_ptr<const Moment> moment_;                  ///< of the present call
-  std::vector<HandledEvent> events_;                      ///< of the present call
-  std::optional<Outcome> outcome_;                        ///< for a saved state
-  std::vector<std::shared_ptr<const Moment>> decisions_;  ///< by group
-  std::vector<std::optional<HandledEvent>> rejections_;   ///< by group
+  std::optional<Outcome> outcome_;                       ///< for a saved state
+  std::vector<Decision> decisions_;                      ///< by group
+  std::vector<std::optional<HandledEvent>> rejections_;  ///< by group
+
+  // Of the present call.
+  std::shared_ptr<const Moment> moment_;
+  std::vector<HandledEvent> events_;
+  bool is_repeatable_ = true;
+  /// What the call has replaced, in order.
+  struct Replaced {
+    GroupId group;
+    Decision decision;
+    std::optional<HandledEvent> rejection;
+  };
+  std::vector<Replaced> replaced_;
 };
 
 }  // namespace cbc::python
