@@ -38,7 +38,7 @@ struct Frame {
   bool is_implicit = false;  ///< a mapping without braces in a list in brackets
   std::size_t column = 0;    ///< of a block
   Next next = Next::entry;
-  std::vector<Entry> entries;  ///< of a mapping
+  std::vector<Entry> entries = {};  ///< of a mapping
 };
 
 class Scanner {
