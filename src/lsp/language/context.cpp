@@ -162,7 +162,7 @@ class Scanner {
       return std::string(raw);
     }
     Diagnostics ignored;
-    const auto document = yaml::parse(raw, {}, ignored);
+    const auto document = yaml::parse(concat(raw, "\n"), {}, ignored);
     if (document != nullptr && document->root().items.empty()) return document->root().text;
     return std::string(raw.substr(is_quoted ? 1 : 0));
   }
