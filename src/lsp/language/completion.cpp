@@ -35,7 +35,7 @@ constexpr Snippet snippets[] = {
      R"({"behavior": "${1:NAME}", "task": "${2:TASK}", "suitability": ${3:100}})"},
     {FileKind::catalog, "behaviors", "behavior that requires a task",
      R"({"behavior": "${1:NAME}", "task": "${2:TASK}", "suitability": ${3:100}, )"
-     R"("requires": [{"task": "${4:TASK}"}]})"},
+     R"("requires": [{"task": "${4:OTHER}"}]})"},
     {FileKind::catalog, "behaviors/-/tasks", "task performed",
      R"({"task": "${1:TASK}", "suitability": ${2:100}})"},
     {FileKind::catalog, "behaviors/-/requires", "requirement", R"({"task": "${1:TASK}"})"},
@@ -47,10 +47,10 @@ constexpr Snippet snippets[] = {
     {FileKind::catalog, "tasks/-/parameters", "parameter",
      R"({"parameter": "${1:NAME}", "allowed_values": [${2:0}, ${3:100}]})"},
     {FileKind::catalog, "exclusivity_constraints", "tasks that exclude one another",
-     R"({"mutually_exclusive": ["${1:TASK}", "${2:TASK}"]})"},
+     R"({"mutually_exclusive": ["${1:TASK}", "${2:OTHER}"]})"},
     {FileKind::catalog, "situation", "variable", R"({"variable": "${1:NAME}"})"},
     {FileKind::catalog, "situation", "variable with values",
-     R"({"variable": "${1:NAME}", "values": ["${2:VALUE}", "${3:VALUE}"]})"},
+     R"({"variable": "${1:NAME}", "values": ["${2:VALUE}", "${3:OTHER}"]})"},
     {FileKind::script, "events", "start", R"({"start": "${1:TASK}"})"},
     {FileKind::script, "events", "start with a priority",
      R"({"start": "${1:TASK}", "priority": ${2:2}})"},
@@ -69,7 +69,7 @@ constexpr Snippet snippets[] = {
     {FileKind::properties, "properties", "always",
      R"({"always": {"running": ["${1:TASK}"]}, "when": {"running": ["${2:TASK}"]}})"},
     {FileKind::properties, "properties", "never",
-     R"({"never": {"running": ["${1:TASK}", "${2:TASK}"]}})"},
+     R"({"never": {"running": ["${1:TASK}", "${2:OTHER}"]}})"},
     {FileKind::properties, "properties", "reachable",
      R"({"reachable": {"running": ["${1:TASK}"]}})"},
     {FileKind::properties, "properties", "keeps_running",
@@ -80,8 +80,12 @@ constexpr Snippet snippets[] = {
 
 /// Whether a text without quotes is that text, and no number or boolean, also in brackets.
 bool may_be_plain(const std::string& text) {
+  constexpr std::string_view word =
+      "0123456789_ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+  const bool is_long_word = text.size() > 5 && text.find_first_not_of(word) == std::string::npos;
+  if (is_long_word && text.front() >= 'A') return true;  // most names, without parsing them
   const bool is_number = text.find_first_not_of("0123456789.+-_eE") == std::string::npos;
-  if (is_number || is_control(utf8::decode(text + ' ', 0).character)) return false;
+  if (is_number || printable(text) != text) return false;
   Diagnostics ignored;
   const auto document = yaml::parse(concat("[", text, ", {", text, ": ", text, "}]"), {}, ignored);
   if (document == nullptr || document->root().items.size() != 2) return false;

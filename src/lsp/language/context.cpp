@@ -112,6 +112,24 @@ class Scanner {
     return end;
   }
 
+  /// The same of one that may go on in the next lines; those of a block are deeper.
+  [[nodiscard]] std::size_t end_of_plain_lines(std::size_t end) const {
+    while (true) {
+      std::size_t at = skip_spaces(end);
+      if (!is_line_end(at)) return end;
+      std::size_t line = at;
+      while (at < text_.size() && is_line_end(at)) {
+        line = yaml::end_of_line(text_, at) + 1;
+        at = skip_spaces(line);
+      }
+      const bool goes_on = is_in_flow() ? !is_one_of(byte(at), ",[]{}#:\"'") && !begins_entry(at)
+                                        : !frames_.empty() && at - line > frames_.back().column &&
+                                              byte(at) != '#' && (is_dash(at) || !begins_entry(at));
+      if (at >= text_.size() || !goes_on) return end;
+      end = end_of_plain(at, is_in_flow());
+    }
+  }
+
   [[nodiscard]] bool has_colon(std::size_t at) const {
     at = skip_spaces(at);
     return byte(at) == ':' && is_blank_at(at + 1);
@@ -192,13 +210,12 @@ class Scanner {
     frames_.pop_back();
   }
 
-  /// Closes what ends before a key at a column. A list may stand at the column of its key.
+  /// Closes what ends before a key at a column.
   void pop_to(std::size_t column) {
     while (!frames_.empty()) {
-      const Frame& top = frames_.back();
-      const bool has_same_key = top.is_list && top.column == column && frames_.size() > 1 &&
-                                !frames_[frames_.size() - 2].is_list;
-      if (top.column < column || (top.column == column && !has_same_key)) return;
+      const std::size_t top = frames_.size() - 1;
+      const bool is_before = frames_[top].column < column;
+      if (is_before || (frames_[top].column == column && !has_key_above(top))) return;
       pop();
     }
   }
@@ -206,8 +223,7 @@ class Scanner {
   void add_key(const Span& key, bool has_colon) {
     frames_.back().entries.push_back({key, {}});
     frames_.back().next = Next::nothing;
-    note_scalar(key, true, false);
-    if (cursor_ >= key.begin && cursor_ <= key.end) result_.has_colon = has_colon;
+    if (note_scalar(key, true, false)) result_.has_colon = has_colon;
   }
 
   void add_value(const Span& value, bool is_open) {
@@ -267,13 +283,15 @@ class Scanner {
     watch(last, !is_key);
   }
 
-  void note_scalar(const Span& span, bool is_key, bool is_open) {
-    if (cursor_ < span.begin || cursor_ > span.end || is_over_) return;
+  /// Returns whether the cursor is in the scalar.
+  bool note_scalar(const Span& span, bool is_key, bool is_open) {
+    if (cursor_ < span.begin || cursor_ > span.end || is_over_) return false;
     note_place(is_key, is_open);
     result_.begin = span.begin;
     result_.end = span.end;
     result_.text = text_of(span);
     if (is_key && watched_ > 0) own_key_ = span.begin;
+    return true;
   }
 
   /// The bytes from `gap_` to `end` have nothing but blanks.
@@ -284,31 +302,42 @@ class Scanner {
     note_place(!top.is_list && top.next == Next::entry, is_open);
   }
 
+  /// The innermost frame at a column or before it; the first one if there is none.
+  [[nodiscard]] std::size_t frame_at(std::size_t column) const {
+    std::size_t frame = frames_.empty() ? 0 : frames_.size() - 1;
+    while (frame > 0 && frames_[frame].column > column) --frame;
+    return frame;
+  }
+
+  /// A list may stand at the column of its key.
+  [[nodiscard]] bool has_key_above(std::size_t frame) const {
+    return frame > 0 && frames_[frame].is_list && !frames_[frame - 1].is_list &&
+           frames_[frame].column == frames_[frame - 1].column;
+  }
+
+  [[nodiscard]] std::string list_key_at(std::size_t column) const {
+    const std::size_t frame = frame_at(column);
+    if (frames_.empty() || frames_[frame].column != column) return {};
+    if (has_key_above(frame)) return step_of(frames_[frame - 1]);
+    return frames_[frame].next == Next::value ? step_of(frames_[frame]) : "";
+  }
+
   /// The cursor is at a column of a line of a block that has nothing but blanks.
   void note_blank(std::size_t column) {
-    std::size_t frame = frames_.size();
-    while (frame > 1 && frames_[frame - 1].column > column) --frame;
-    if (frame > 0) --frame;
-    // A list at the column of its key: the key comes first, and the list with a dash.
-    std::size_t list = frames_.size();
-    if (frame > 0 && frames_[frame].is_list && frames_[frame].column == column &&
-        !frames_[frame - 1].is_list && frames_[frame - 1].column == column) {
-      list = frame--;
-    }
+    std::size_t frame = frame_at(column);
+    if (has_key_above(frame) && frames_[frame].column == column) --frame;
     note_frame(frame);
     result_.is_key = true;
     if (frames_.empty()) return;
     const Frame& found = frames_[frame];
-    const bool may_begin = frame + 1 == frames_.size() && found.next != Next::nothing;
-    if (may_begin && found.column < column) {
+    if (frame + 1 == frames_.size() && found.next != Next::nothing && found.column < column) {
       result_.path.push_back(step_of(found));
       result_.outer.clear();
       note_outer(found);
-      return;
+    } else if (!found.is_list) {
+      result_.list_key = list_key_at(column);
+      watch(frame, false);
     }
-    if (found.is_list) return;
-    if (list < frames_.size() || may_begin) result_.list_key = step_of(found);
-    watch(frame, false);
   }
 
   // Blocks ----------------------------------------------------------------------------------------
@@ -378,6 +407,7 @@ class Scanner {
 
   /// `has_key`: it follows its key on the same line.
   void scan_value(std::size_t column, bool starts_line, bool has_key = false) {
+    const std::string list_key = starts_line ? list_key_at(column) : "";
     if (starts_line) pop_to(column);
     if (starts_line && frames_.empty() && !is_one_of(byte(at_), "{[|>")) push({.column = column});
     const bool is_half_key = starts_line && !frames_.empty() && frames_.back().column >= column;
@@ -390,30 +420,13 @@ class Scanner {
     Span span{at_, is_quoted ? end_of_quoted(at_) : end_of_plain(at_, false)};
     at_ = span.end;
     if (is_half_key) {
-      note_scalar(span, true, false);
+      if (note_scalar(span, true, false)) result_.list_key = list_key;
     } else {
-      if (!is_quoted) span.end = end_of_continuation(span.end);
+      if (!is_quoted) span.end = end_of_plain_lines(span.end);
       at_ = span.end;
       add_value(span, !has_key);
     }
     finish_line();
-  }
-
-  /// Where a plain scalar of a block ends that may go on in deeper lines.
-  [[nodiscard]] std::size_t end_of_continuation(std::size_t end) const {
-    while (true) {
-      std::size_t at = skip_spaces(end);
-      if (!is_line_end(at)) return end;
-      std::size_t line = at;
-      while (at < text_.size() && is_line_end(at)) {
-        line = yaml::end_of_line(text_, at) + 1;
-        at = skip_spaces(line);
-      }
-      if (at >= text_.size() || byte(at) == '#') return end;
-      const bool is_deeper = !frames_.empty() && at - line > frames_.back().column;
-      if (!is_deeper || (!is_dash(at) && begins_entry(at))) return end;
-      end = end_of_plain(at, false);
-    }
   }
 
   Span take_block_scalar() {
@@ -494,7 +507,7 @@ class Scanner {
     Span span{at_, is_quoted ? end_of_quoted(at_) : end_of_plain(at_, true)};
     if (!is_quoted) {
       if (span.end == span.begin) span.end = std::min(span.begin + 1, text_.size());
-      span.end = end_of_flow_continuation(span.end);
+      span.end = end_of_plain_lines(span.end);
     }
     if (!knows_json_) is_json_ = frames_.front().is_flow && byte(at_) == '"';
     knows_json_ = true;
@@ -513,21 +526,6 @@ class Scanner {
     // It may go over several lines.
     const std::size_t line = text_.substr(span.begin, span.end - span.begin).rfind('\n');
     if (line != std::string_view::npos) line_ = span.begin + line + 1;
-  }
-
-  /// Where a plain scalar in brackets ends that may go on in the next lines.
-  [[nodiscard]] std::size_t end_of_flow_continuation(std::size_t end) const {
-    while (true) {
-      std::size_t at = skip_spaces(end);
-      if (!is_line_end(at)) return end;
-      std::size_t line = at;
-      while (at < text_.size() && is_line_end(at)) {
-        line = yaml::end_of_line(text_, at) + 1;
-        at = skip_spaces(line);
-      }
-      if (at >= text_.size() || is_one_of(byte(at), ",[]{}#:\"'") || begins_entry(at)) return end;
-      end = end_of_plain(at, true);
-    }
   }
 
   const std::string_view text_;

@@ -28,8 +28,8 @@ struct Context {
   std::size_t end = 0;
   std::string text;
   std::vector<std::string> siblings;  ///< the other keys of the same mapping
-  /// On a line without content: the key of this mapping to whose list an item may be added here,
-  /// with a dash.
+  /// On a line that has no complete key: the key of this mapping to whose list an item may be added
+  /// here, with a dash.
   std::string list_key;
   /// The keys before the cursor, with values that are scalars, of the mapping in which the
   /// innermost mapping stands.

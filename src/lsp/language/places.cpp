@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <string_view>
 
 namespace cbc::lsp {
@@ -18,104 +17,76 @@ using Path = std::vector<std::string>;
 enum class Role : std::uint8_t { key, value, item };
 
 struct Row {
+  FileKind kind;
   Role role;
-  /// Of a key the mapping, of a value its key, of an item the list. "-" is an item, "*" any key.
+  /// Of a key the mapping, of a value its key, of an item the list. "-" is an item, "*" any key,
+  /// and "a|b" one of two.
   std::string_view path;
   Names names;
 };
 
-constexpr Row names_in_catalogs[] = {
-    {Role::value, "behaviors/-/behavior", Names::behavior},
-    {Role::value, "behaviors/-/task", Names::task},
-    {Role::value, "behaviors/-/tasks/-/task", Names::task},
-    {Role::value, "behaviors/-/requires/-/task", Names::task},
-    {Role::key, "behaviors/-/situation", Names::variable},
-    {Role::value, "tasks/-/task", Names::task},
-    {Role::item, "exclusivity_constraints/-/mutually_exclusive", Names::task},
-    {Role::value, "situation/-/variable", Names::variable},
+constexpr Row rows[] = {
+    {FileKind::catalog, Role::value, "behaviors/-/behavior", Names::behavior},
+    {FileKind::catalog, Role::value, "behaviors|tasks/-/task", Names::task},
+    {FileKind::catalog, Role::value, "behaviors/-/tasks|requires/-/task", Names::task},
+    {FileKind::catalog, Role::key, "behaviors/-/situation", Names::variable},
+    {FileKind::catalog, Role::item, "exclusivity_constraints/-/mutually_exclusive", Names::task},
+    {FileKind::catalog, Role::value, "situation/-/variable", Names::variable},
+    {FileKind::script, Role::key, "situation", Names::part},
+    {FileKind::script, Role::value, "events/-/start|stop", Names::task},
+    {FileKind::script, Role::value, "events/-/finish|fault|repair", Names::behavior},
+    {FileKind::script, Role::value, "events/-/finish/task", Names::task},
+    {FileKind::script, Role::key, "events/-/situation", Names::part},
+    {FileKind::script, Role::key, "events/-/expect/running", Names::task},
+    {FileKind::script, Role::value, "events/-/expect/running/*", Names::behavior},
+    {FileKind::script, Role::item, "events/-/expect/running/*", Names::behavior},
+    {FileKind::script, Role::item, "events/-/expect/stopped", Names::task},
+    {FileKind::script, Role::item, "events/-/expect/active|active_includes", Names::behavior},
+    {FileKind::properties, Role::item, "assume/start|stop", Names::task},
+    {FileKind::properties, Role::key, "assume/start", Names::task},
+    {FileKind::properties, Role::item, "assume/faults/of|except", Names::behavior},
+    {FileKind::properties, Role::item, "assume/situation", Names::part},
+    {FileKind::properties, Role::key, "assume/never/-", Names::part},
+    {FileKind::properties, Role::item, "assume/together/-", Names::variable},
+    {FileKind::properties, Role::key, "initially", Names::part},
+    {FileKind::properties, Role::value, "properties/-/can_start|keeps_running", Names::task},
+    {FileKind::properties, Role::item, "properties/-/by/-/start|stop", Names::task},
+    {FileKind::properties, Role::item, "condition/running|stopped", Names::task},
+    {FileKind::properties, Role::key, "condition/running|requested", Names::task},
+    {FileKind::properties, Role::value, "condition/running/*", Names::behavior},
+    {FileKind::properties, Role::item, "condition/running/*", Names::behavior},
+    {FileKind::properties, Role::item, "condition/active|active_includes|faulty|available",
+     Names::behavior},
+    {FileKind::properties, Role::key, "condition/situation", Names::part},
+    {FileKind::settings, Role::item, "never_together/-", Names::task},
 };
 
-constexpr Row names_in_scripts[] = {
-    {Role::key, "situation", Names::part},
-    {Role::value, "events/-/start", Names::task},
-    {Role::value, "events/-/stop", Names::task},
-    {Role::value, "events/-/finish", Names::behavior},
-    {Role::value, "events/-/finish/task", Names::task},
-    {Role::key, "events/-/situation", Names::part},
-    {Role::value, "events/-/fault", Names::behavior},
-    {Role::value, "events/-/repair", Names::behavior},
-    {Role::key, "events/-/expect/running", Names::task},
-    {Role::value, "events/-/expect/running/*", Names::behavior},
-    {Role::item, "events/-/expect/running/*", Names::behavior},
-    {Role::item, "events/-/expect/stopped", Names::task},
-    {Role::item, "events/-/expect/active", Names::behavior},
-    {Role::item, "events/-/expect/active_includes", Names::behavior},
-};
-
-constexpr Row names_in_properties[] = {
-    {Role::item, "assume/start", Names::task},
-    {Role::key, "assume/start", Names::task},
-    {Role::item, "assume/stop", Names::task},
-    {Role::item, "assume/faults/of", Names::behavior},
-    {Role::item, "assume/faults/except", Names::behavior},
-    {Role::item, "assume/situation", Names::part},
-    {Role::key, "assume/never/-", Names::part},
-    {Role::item, "assume/together/-", Names::variable},
-    {Role::key, "initially", Names::part},
-    {Role::value, "properties/-/can_start", Names::task},
-    {Role::value, "properties/-/keeps_running", Names::task},
-    {Role::item, "properties/-/by/-/start", Names::task},
-    {Role::item, "properties/-/by/-/stop", Names::task},
-    {Role::item, "condition/running", Names::task},
-    {Role::key, "condition/running", Names::task},
-    {Role::value, "condition/running/*", Names::behavior},
-    {Role::item, "condition/running/*", Names::behavior},
-    {Role::item, "condition/stopped", Names::task},
-    {Role::item, "condition/active", Names::behavior},
-    {Role::item, "condition/active_includes", Names::behavior},
-    {Role::item, "condition/faulty", Names::behavior},
-    {Role::item, "condition/available", Names::behavior},
-    {Role::key, "condition/requested", Names::task},
-    {Role::key, "condition/situation", Names::part},
-};
-
-constexpr Row names_in_settings[] = {
-    {Role::item, "never_together/-", Names::task},
-};
-
-std::span<const Row> rows_of(FileKind kind) {
-  switch (kind) {
-    case FileKind::catalog:
-      return names_in_catalogs;
-    case FileKind::script:
-      return names_in_scripts;
-    case FileKind::properties:
-      return names_in_properties;
-    case FileKind::settings:
-      return names_in_settings;
-    case FileKind::compiled:
-    case FileKind::log:
-    case FileKind::other:
-      break;
-  }
-  return {};
+/// Takes the part of a text before a separator.
+std::string_view take_part(std::string_view& text, char separator) {
+  const std::string_view part = text.substr(0, text.find(separator));
+  text.remove_prefix(std::min(part.size() + 1, text.size()));
+  return part;
 }
 
-bool matches(std::string_view pattern, const Path& path) {
-  for (std::size_t place = 0; place < path.size(); ++place) {
-    const std::size_t end = std::min(pattern.find('/'), pattern.size());
-    const std::string_view step = pattern.substr(0, end);
-    if (step != (path[place].empty() ? "-" : path[place]) && step != "*") return false;
-    if (end == pattern.size()) return place + 1 == path.size();
-    pattern.remove_prefix(end + 1);
+bool has_step(std::string_view pattern, std::string_view step) {
+  while (!pattern.empty()) {
+    const std::string_view choice = take_part(pattern, '|');
+    if (choice == (step.empty() ? "-" : step) || choice == "*") return true;
   }
   return false;
 }
 
+bool matches(std::string_view pattern, const Path& path) {
+  return std::all_of(
+             path.begin(), path.end(),
+             [&](const std::string& step) { return has_step(take_part(pattern, '/'), step); }) &&
+         pattern.empty();
+}
+
 std::optional<Names> find_names(FileKind kind, Role role, Path path) {
   path = normal_path(std::move(path), kind);
-  for (const Row& row : rows_of(kind)) {
-    if (row.role == role && matches(row.path, path)) return row.names;
+  for (const Row& row : rows) {
+    if (row.kind == kind && row.role == role && matches(row.path, path)) return row.names;
   }
   return std::nullopt;
 }
