@@ -80,12 +80,14 @@ constexpr Snippet snippets[] = {
 
 /// Whether a text without quotes is that text, and no number or boolean, also in brackets.
 bool may_be_plain(const std::string& text) {
-  constexpr std::string_view word =
-      "0123456789_ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
-  const bool is_long_word = text.size() > 5 && text.find_first_not_of(word) == std::string::npos;
-  if (is_long_word && text.front() >= 'A') return true;  // most names, without parsing them
   const bool is_number = text.find_first_not_of("0123456789.+-_eE") == std::string::npos;
   if (is_number || printable(text) != text) return false;
+  // Most names are words longer than the longest boolean, or with a digit: no need to parse them.
+  constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+  constexpr std::string_view digits = "0123456789_";
+  const bool is_word = letters.find(text.front()) != std::string_view::npos &&
+                       text.find_first_not_of(concat(letters, digits)) == std::string::npos;
+  if (is_word && (text.size() > 5 || text.find_first_of(digits) != std::string::npos)) return true;
   Diagnostics ignored;
   const auto document = yaml::parse(concat("[", text, ", {", text, ": ", text, "}]"), {}, ignored);
   if (document == nullptr || document->root().items.size() != 2) return false;

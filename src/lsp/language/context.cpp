@@ -96,6 +96,18 @@ class Scanner {
     return at;
   }
 
+  [[nodiscard]] bool is_quote(std::size_t at) const { return is_one_of(byte(at), "\"'"); }
+
+  /// Whether the colon of a key stands here. That of a key in quotes needs no blank in brackets.
+  [[nodiscard]] bool is_colon(std::size_t at, bool has_quotes = false) const {
+    const bool is_end = is_in_flow() && (has_quotes || is_one_of(byte(at + 1), ",[]{}"));
+    return byte(at) == ':' && (is_end || is_blank_at(at + 1));
+  }
+
+  [[nodiscard]] Span scalar_at(std::size_t at, bool ends_at_colon) const {
+    return {at, is_quote(at) ? end_of_quoted(at) : end_of_plain(at, ends_at_colon)};
+  }
+
   /// Where a plain scalar ends on its line, without blanks at its end.
   [[nodiscard]] std::size_t end_of_plain(std::size_t at, bool ends_at_colon) const {
     std::size_t end = at;
@@ -103,10 +115,7 @@ class Scanner {
       const char here = byte(at);
       if (here == '#' && at > end) break;
       if (is_in_flow() && is_one_of(here, ",[]{}")) break;
-      if (here == ':' && ends_at_colon &&
-          (is_blank_at(at + 1) || (is_in_flow() && is_one_of(byte(at + 1), ",[]{}")))) {
-        break;
-      }
+      if (ends_at_colon && is_colon(at)) break;
       if (!yaml::is_blank(here)) end = at + 1;
     }
     return end;
@@ -130,18 +139,13 @@ class Scanner {
     }
   }
 
-  [[nodiscard]] bool has_colon(std::size_t at) const {
-    at = skip_spaces(at);
-    return byte(at) == ':' && is_blank_at(at + 1);
-  }
-
   /// Whether a line, whose content begins here, begins an entry of a block: "- ", or "key: ".
   [[nodiscard]] bool begins_entry(std::size_t at) const {
     if (is_dash(at)) return true;
-    if (is_one_of(byte(at), "\"'")) return has_colon(end_of_quoted(at));
+    if (is_quote(at)) return is_colon(skip_spaces(end_of_quoted(at)));
     for (; !is_line_end(at); ++at) {
       if (is_one_of(byte(at), ",[]{}#")) return false;
-      if (byte(at) == ':' && is_blank_at(at + 1)) return true;
+      if (is_colon(at)) return true;
     }
     return false;
   }
@@ -266,8 +270,8 @@ class Scanner {
 
   void watch(std::size_t frame, bool has_own_key) {
     watched_ = frame + 1;
-    if (has_own_key && !frames_[frame].entries.empty())
-      own_key_ = frames_[frame].entries.back().key.begin;
+    if (!has_own_key || frames_[frame].entries.empty()) return;
+    own_key_ = frames_[frame].entries.back().key.begin;
   }
 
   void note_place(bool is_key, bool is_open) {
@@ -289,7 +293,7 @@ class Scanner {
     note_place(is_key, is_open);
     result_.begin = span.begin;
     result_.end = span.end;
-    result_.text = text_of(span);
+    if (byte(span.begin) != '*') result_.text = text_of(span);  // an alias is no text of its own
     if (is_key && watched_ > 0) own_key_ = span.begin;
     return true;
   }
@@ -385,10 +389,10 @@ class Scanner {
     const std::size_t column = at_ - line_;
     at_ = skip_properties(at_);
     if (is_line_end(at_) || begins_comment(at_)) return finish_line();
-    const bool is_quoted = is_one_of(byte(at_), "\"'");
-    if (!is_quoted && is_one_of(byte(at_), "{[|>")) return scan_value(column, starts_line);
-    const Span span{at_, is_quoted ? end_of_quoted(at_) : end_of_plain(at_, true)};
-    if (!has_colon(span.end)) return scan_value(column, starts_line);
+    const Span span = scalar_at(at_, true);
+    if (is_one_of(byte(at_), "{[|>") || !is_colon(skip_spaces(span.end))) {
+      return scan_value(column, starts_line);
+    }
     if (starts_line) pop_to(column);
     // Below a complete value, a key at another column is one that is not indented well.
     const bool is_next = !frames_.empty() && !frames_.back().is_list &&
@@ -416,16 +420,14 @@ class Scanner {
       add_value(take_block_scalar(), false);
       return;
     }
-    const bool is_quoted = is_one_of(byte(at_), "\"'");
-    Span span{at_, is_quoted ? end_of_quoted(at_) : end_of_plain(at_, false)};
-    at_ = span.end;
+    Span span = scalar_at(at_, false);
     if (is_half_key) {
       if (note_scalar(span, true, false)) result_.list_key = list_key;
     } else {
-      if (!is_quoted) span.end = end_of_plain_lines(span.end);
-      at_ = span.end;
+      if (!is_quote(at_)) span.end = end_of_plain_lines(span.end);
       add_value(span, !has_key);
     }
+    at_ = span.end;
     finish_line();
   }
 
@@ -491,8 +493,7 @@ class Scanner {
       while (frames_.back().is_implicit) pop();
       frames_.back().next = Next::entry;
       gap_ = ++at_;
-    } else if (here == ':' &&
-               (is_after_quote_ || is_blank_at(at_ + 1) || is_one_of(byte(at_ + 1), ",[]{}"))) {
+    } else if (is_colon(at_, is_after_quote_)) {
       if (!frames_.back().is_list && !frames_.back().entries.empty()) {
         frames_.back().next = Next::value;
       }
@@ -503,17 +504,12 @@ class Scanner {
   }
 
   void scan_flow_scalar() {
-    const bool is_quoted = is_one_of(byte(at_), "\"'");
-    Span span{at_, is_quoted ? end_of_quoted(at_) : end_of_plain(at_, true)};
-    if (!is_quoted) {
-      if (span.end == span.begin) span.end = std::min(span.begin + 1, text_.size());
-      span.end = end_of_plain_lines(span.end);
-    }
+    const bool is_quoted = is_quote(at_);
+    Span span = scalar_at(at_, true);
+    if (!is_quoted) span.end = end_of_plain_lines(span.end);
     if (!knows_json_) is_json_ = frames_.front().is_flow && byte(at_) == '"';
     knows_json_ = true;
-    const std::size_t colon = skip_spaces(span.end);
-    const bool has_colon = byte(colon) == ':' && (is_quoted || is_blank_at(colon + 1) ||
-                                                  is_one_of(byte(colon + 1), ",[]{}"));
+    const bool has_colon = is_colon(skip_spaces(span.end), is_quoted);
     if (frames_.back().is_list && has_colon) push({.is_flow = true, .is_implicit = true});
     // A comma may be missing.
     if (frames_.back().is_list || frames_.back().next == Next::value) {
