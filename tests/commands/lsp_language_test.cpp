@@ -481,6 +481,20 @@ std::optional<std::vector<NamePlace>> names_by_readers(const File& file, const C
   return names;
 }
 
+/// Compares the places of names with those that the readers note.
+void expect_names(const File& file, const std::vector<NamePlace>& names, const Catalog& catalog) {
+  const PositionMap positions(file.text);
+  NameMap found;
+  for (const yaml::Node& node : file.document->nodes()) {
+    if (node.kind != yaml::Kind::scalar || node.shared) continue;
+    const std::size_t begin = yaml::skip_properties(file.text, positions.offset(node.range.begin));
+    const Context context = lsp::context_at(file.text, begin);
+    const auto kind = lsp::name_kind_at(context, file.kind, &catalog);
+    if (kind) found.emplace(begin, *kind);
+  }
+  EXPECT_EQ(found, offsets_of(names, file.text)) << file.path;
+}
+
 TEST(LspNames, OfOurFilesAreThoseOfTheReaders) {
   std::map<FileKind, std::size_t> files;
   for (const File& file : corpus()) {
@@ -491,26 +505,14 @@ TEST(LspNames, OfOurFilesAreThoseOfTheReaders) {
     const auto names = names_by_readers(file, catalog);
     if (!names) continue;
     ++files[file.kind];
-    NameMap expected = offsets_of(*names, file.text);
-    const PositionMap positions(file.text);
-    NameMap found;
-    for (const yaml::Node& node : file.document->nodes()) {
-      if (node.kind != yaml::Kind::scalar || node.shared) continue;
-      const std::size_t begin =
-          yaml::skip_properties(file.text, positions.offset(node.range.begin));
-      const Context context = lsp::context_at(file.text, begin);
-      const auto kind = lsp::name_kind_at(context, file.kind, catalog);
-      if (kind) found.emplace(begin, *kind);
-    }
-    EXPECT_EQ(found, expected) << file.path;
+    expect_names(file, *names, *catalog);
   }
   EXPECT_GT(files[FileKind::catalog], 15U);
   EXPECT_GT(files[FileKind::script], 50U);
   EXPECT_GT(files[FileKind::properties], 10U);
 }
 
-// What the language has
-// -----------------------------------------------------------------------------
+// What the language has ---------------------------------------------------------------------------
 
 constexpr const char* robot_text =
     "behaviors:\n"
@@ -540,6 +542,70 @@ const Catalog& robot() {
     return *read_catalog(robot_text, "robot.yaml", ignored);
   }();
   return catalog;
+}
+
+// The files of the project do not have all of them.
+TEST(LspNames, OfEachPlaceAreThoseOfTheReaders) {
+  const std::string script =
+      "situation: {LIGHT: day, LOOK: true}\n"
+      "events:\n"
+      "- {start: FLY, parameters: {side: left}}\n"
+      "- expect: {running: {FLY: any, SEE: LOOK}, stopped: [LAND], active: [FLY_SLOWLY, LOOK]}\n"
+      "- expect: {running: {FLY: [FLY_FAST, FLY_SLOWLY]}, active_includes: [LOOK]}\n"
+      "- finish: {task: FLY}\n"
+      "- {finish: LOOK, cause: time_out}\n"
+      "- fault: LOOK\n"
+      "- repair: LOOK\n"
+      "- situation: {LIGHT: night, FLY_FAST: false}\n"
+      "- stop: FLY\n";
+  const std::string properties =
+      "properties:\n"
+      "- {can_start: FLY, when: {stopped: [SEE]}}\n"
+      "- {keeps_running: FLY, by: [stop, {start: [FLY]}]}\n"
+      "- never: {running: [FLY, LAND]}\n"
+      "- always:\n"
+      "    any:\n"
+      "    - running: {FLY: [FLY_FAST, FLY_SLOWLY]}\n"
+      "    - not: {all: [{running: {SEE: any}}, {running: {FLY: FLY_FAST}}, {active: [LOOK]}]}\n"
+      "  after: {active_includes: [LOOK]}\n"
+      "  until: {available: [LOOK], faulty: [FLY_SLOWLY]}\n"
+      "- reachable: {requested: {FLY: 1}, situation: {LIGHT: [day, dusk], LOOK: true}}\n"
+      "- {always_possible: {faulty: none}, by: [{stop: [FLY]}, start]}\n";
+  const std::string some =
+      "  situation: [LIGHT, WIND, LOOK, FLY_FAST]\n  never: [{LIGHT: night, LOOK: false}]\n";
+  const std::vector<std::pair<FileKind, std::string>> texts = {
+      {FileKind::script, script},
+      {FileKind::properties,
+       "assume:\n  start: {FLY: [1, 2], SEE: 3}\n  stop: [FLY]\n  faults: {most: 1, of: "
+       "[FLY_SLOWLY]}\n"
+       "  together: [[LIGHT, WIND]]\n" +
+           some + "initially: {LIGHT: day, FLY_FAST: false}\n" + properties},
+      {FileKind::properties,
+       "assume:\n  start: [FLY]\n  faults: {most: 1, except: [LOOK]}\n" + some + properties},
+      {FileKind::properties, "assume:\n  start: all\n  faults: 1\n" + some + properties}};
+  const CompiledCatalog compiled = compile(robot());
+  for (const auto& [kind, text] : texts) {
+    Diagnostics diagnostics;
+    const File file{"", text, kind, yaml::parse(text, "", diagnostics)};
+    ASSERT_NE(file.document, nullptr);
+    std::vector<NamePlace> names;
+    const bool is_read =
+        kind == FileKind::script
+            ? read_script(*file.document, compiled, Severity::warning, diagnostics, nullptr, &names)
+                  .has_value()
+            : read_properties(*file.document, compiled, diagnostics, &names).has_value();
+    for (const Diagnostic& finding : diagnostics.all()) {
+      if (finding.severity == Severity::error) ADD_FAILURE() << text << finding.message;
+    }
+    EXPECT_TRUE(is_read);
+    EXPECT_GT(names.size(), 15U);
+    expect_names(file, names, robot());
+  }
+  Diagnostics ignored;
+  const File catalog{"", robot_text, FileKind::catalog, yaml::parse(robot_text, "", ignored)};
+  expect_names(catalog, understand_catalog(*catalog.document, ignored).names, robot());
+  EXPECT_EQ(lsp::name_kind_at(at("never_together: [[A, |B]]"), FileKind::settings, nullptr),
+            NameKind::task);
 }
 
 std::vector<Completion> completions(const std::string& marked, FileKind kind,
@@ -713,7 +779,7 @@ TEST(LspCompletion, NamesAreInsertedAsThey) {
        {"A",  "a b", "true", "12", "~",  "null", "a: b",     "a #b", "[x]",  "a,b", "- a", "*a",
         "&a", "@a",  "'a'",  "\"", "\\", "<<",   "\xC3\xA4", "\n",   "a\tb", "%a",  "?",   "-"}) {
     Catalog catalog;
-    catalog.tasks.push_back({.name = name});
+    catalog.tasks.emplace_back().name = name;
     for (const std::string text :
          {"- {start: |}\n", "- start: |\n", "- {\"expect\": {stopped: [|]}}\n"}) {
       const auto found = completions(text, script_kind, &catalog);
@@ -869,7 +935,7 @@ TEST(LspHover, OfRules) {
 
 TEST(LspHover, EscapesMarkdown) {
   Catalog catalog;
-  catalog.tasks.push_back({.name = "<b>*a*\n# b"});
+  catalog.tasks.emplace_back().name = "<b>*a*\n# b";
   const std::string text = hover("- start: \"<b>*a*\\n# |b\"", script_kind, &catalog);
   EXPECT_EQ(text.find("<b>"), std::string::npos);
   EXPECT_EQ(text.find("\n#"), std::string::npos);
