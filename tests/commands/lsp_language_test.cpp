@@ -140,6 +140,7 @@ TEST(LspContext, InBlocks) {
   EXPECT_EQ(place("a:\n  b|:\n    c: x\n  d: e\n"), "a/? b (d)");
   EXPECT_EQ(place("a:\n  |b\n"), "a: b");
   EXPECT_EQ(place("a:\n  b\n  c|\nd: e\n"), "a: b c (d)");
+  EXPECT_EQ(place("a: b\n  - c|\n"), "a: b - c");         // no list
   EXPECT_EQ(place("- a: b\n    c: |d\n"), "-/c: d (a)");  // at a wrong column
 }
 
@@ -324,11 +325,17 @@ class TreeCheck {
       Context context = lsp::context_at(file_.text, cursor);
       EXPECT_EQ(context.begin, extent.begin) << file_.path;
       const bool is_on_one_line = node.text.find(' ') == std::string::npos;
-      if (is_on_one_line) EXPECT_EQ(context.end, extent.end) << file_.path;
+      if (is_on_one_line) {
+        EXPECT_EQ(context.end, extent.end) << file_.path;
+      }
       EXPECT_EQ(context.siblings, expected.siblings) << file_.path << " " << in_words(context);
       Context wanted = expected;
       wanted.text = node.text;
       EXPECT_EQ(in_words(context), in_words(wanted)) << file_.path;
+      if (expected.is_key || !is_on_one_line) continue;
+      // So far as it would be written if the rest was not there yet.
+      const std::string_view so_far = std::string_view(file_.text).substr(0, extent.end);
+      EXPECT_EQ(in_words(lsp::context_at(so_far, cursor)), in_words(wanted)) << file_.path;
     }
   }
 
@@ -359,7 +366,7 @@ void ask(const std::string& text, std::size_t cursor, FileKind kind, const Catal
     ASSERT_GE(context.end, cursor);
   }
   const std::vector<Completion> completions = lsp::complete(context, kind, catalog);
-  if (is_empty) EXPECT_TRUE(completions.empty());
+  EXPECT_TRUE(!is_empty || completions.empty());
   for (const Completion& completion : completions) EXPECT_FALSE(completion.insert.empty());
   (void)lsp::describe(context, kind, catalog);
   (void)lsp::name_kind_at(context, kind, catalog);

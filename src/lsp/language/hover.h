@@ -15,6 +15,6 @@ namespace cbc::lsp {
                                    const Catalog* catalog);
 
 /// The text of a rule of lint as Markdown; empty if there is none of this name.
-[[nodiscard]] std::string describe_rule(std::string_view rule);
+[[nodiscard]] std::string describe_rule(std::string_view name);
 
 }  // namespace cbc::lsp

@@ -141,7 +141,7 @@ std::optional<Owner> owner_at(const Context& context) {
 }
 
 std::optional<NameKind> name_kind_at(const Context& context, FileKind kind,
-                                     const Catalog* of_names) {
+                                     const Catalog* catalog) {
   const auto names = names_at(context, kind);
   if (!names || context.text.empty()) return std::nullopt;
   switch (*names) {
@@ -158,19 +158,19 @@ std::optional<NameKind> name_kind_at(const Context& context, FileKind kind,
     case Names::part:
       break;
   }
-  if (find_variable(of_names, context.text) != nullptr) return NameKind::variable;
-  if (find_behavior(of_names, context.text) != nullptr) return NameKind::behavior;
+  if (find_variable(catalog, context.text) != nullptr) return NameKind::variable;
+  if (find_behavior(catalog, context.text) != nullptr) return NameKind::behavior;
   return std::nullopt;
 }
 
-const Task* find_task(const Catalog* of_names, const std::string& name) {
-  return of_names == nullptr ? nullptr : find_in(of_names->tasks, name);
+const Task* find_task(const Catalog* catalog, const std::string& name) {
+  return catalog == nullptr ? nullptr : find_in(catalog->tasks, name);
 }
-const Behavior* find_behavior(const Catalog* of_names, const std::string& name) {
-  return of_names == nullptr ? nullptr : find_in(of_names->behaviors, name);
+const Behavior* find_behavior(const Catalog* catalog, const std::string& name) {
+  return catalog == nullptr ? nullptr : find_in(catalog->behaviors, name);
 }
-const Variable* find_variable(const Catalog* of_names, const std::string& name) {
-  return of_names == nullptr ? nullptr : find_in(of_names->variables, name);
+const Variable* find_variable(const Catalog* catalog, const std::string& name) {
+  return catalog == nullptr ? nullptr : find_in(catalog->variables, name);
 }
 
 }  // namespace cbc::lsp

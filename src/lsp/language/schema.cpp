@@ -134,8 +134,7 @@ std::vector<std::string> SchemaPlace::words() const {
 
 std::string SchemaPlace::description() const {
   for (const Json* const part : parts_) {
-    const std::string text = text_in(*part, "description");
-    if (!text.empty()) return text;
+    if (part->contains("description")) return text_in(*part, "description");
   }
   return {};
 }
