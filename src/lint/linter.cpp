@@ -9,11 +9,9 @@
 #include "core/check/controls.h"
 #include "core/command_line/command_line.h"
 #include "core/diagnostic/diagnostic.h"
-#include "core/diagnostic/rules.h"
+#include "core/files/check_file.h"
 #include "core/files/output.h"
 #include "core/files/replace.h"
-#include "core/property/property_reader.h"
-#include "core/script/reader.h"
 #include "core/support/line_diff.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
@@ -32,19 +30,6 @@ std::string advice_on(FileSet::Fault fault, const std::string& path) {
       return "; correct that first";
   }
   return {};
-}
-
-/// Returns whether a property file can be used.
-bool lint_properties(const yaml::Document& document, const CompiledCatalog& catalog,
-                     Diagnostics& diagnostics) {
-  const std::optional<PropertyFile> file = read_properties(document, catalog, diagnostics);
-  // Of a key without a value the reader has said so.
-  if (file && lacks_properties(document, *file) && document.root().find("properties") != nullptr) {
-    Reporter(document.file(), diagnostics)
-        .report_as({Severity::warning, true}, rule::missing_key, document.root().range,
-                   "the list of properties is empty, so there is nothing to prove");
-  }
-  return file.has_value();
 }
 
 }  // namespace
@@ -142,15 +127,7 @@ void Linter::lint_catalog(File file) {
 }
 
 CheckedCatalog Linter::check(const InputFile& file, const SeveritySettings& settings) const {
-  if (file.document != nullptr) {
-    return check_catalog(*file.document, *file.text, settings, LintOptions{command_.max_nodes},
-                         file.diagnostics);
-  }
-  CheckedCatalog checked;
-  checked.errors = file.diagnostics.count(Severity::error);
-  checked.findings =
-      control_findings(file.diagnostics.all(), {file.name, *file.text, nullptr, false}, settings);
-  return checked;
+  return check_catalog_file(file, settings, LintOptions{command_.max_nodes});
 }
 
 /// Replaces a catalog of an older format by what it is in the present one. Returns whether it has
@@ -224,32 +201,23 @@ void Linter::lint_script(const InputFile& file, const std::string& catalog) {
     has_failed_ = true;
     return;
   }
-  const bool is_of_properties = file.is(FileKind::properties);
-  Diagnostics diagnostics = file.diagnostics;
-  CommentedFile commented{file.name, *file.text, file.document.get(), false};
+  std::shared_ptr<const CheckedCatalog> checked;
   if (file.document != nullptr) {
-    const auto checked = catalog_of(file, catalog);
+    checked = catalog_of(file, catalog);
     if (checked == nullptr) return;
-    const CompiledCatalog& compiled = *checked->compiled;
-    const bool is_usable =
-        is_of_properties
-            ? lint_properties(*file.document, compiled, diagnostics)
-            : read_script(*file.document, compiled, Severity::error, diagnostics).has_value();
-    // Findings that may be allowed do not make a file incomplete.
-    commented.is_complete =
-        is_usable || std::none_of(diagnostics.all().begin(), diagnostics.all().end(), is_fixed);
   }
   if (!settings) {
     has_failed_ = true;
     return;
   }
   LintedFile linted;
-  linted.kind = file.document == nullptr ? LintedFile::Kind::unknown
-                : is_of_properties       ? LintedFile::Kind::properties
-                                         : LintedFile::Kind::script;
+  linted.kind = file.document == nullptr        ? LintedFile::Kind::unknown
+                : file.is(FileKind::properties) ? LintedFile::Kind::properties
+                                                : LintedFile::Kind::script;
   linted.file = file.name;
   linted.text = *file.text;
-  linted.findings = control_findings(diagnostics.release(), commented, *settings);
+  linted.findings = checked == nullptr ? check_catalog_file(file, *settings, {}).findings
+                                       : check_about_catalog(file, *checked->compiled, *settings);
   add(std::move(linted), *settings);
 }
 

@@ -35,6 +35,8 @@ struct LintOptions {
   /// Returns those of some findings that are reported; empty: all of them are. What is wrong behind
   /// a finding is looked for if it is not reported.
   std::function<std::vector<Diagnostic>(std::vector<Diagnostic>)> control = {};
+  /// Asked now and then in searches; true ends them, and the findings are then not all there are.
+  std::function<bool()> is_stopped = {};
 };
 
 /// What is known of a catalog. If it was read in compiled form, there is only that.

@@ -595,7 +595,7 @@ void check_on_request_requirements(const Catalog& catalog, const std::vector<boo
 void check_by_proof(const CatalogReading& reading, const CompiledCatalog& compiled,
                     const std::vector<bool>& conflicts, const LintOptions& options,
                     Reporter& reporter) {
-  AssignmentSearch search(compiled, options.max_nodes);
+  AssignmentSearch search(compiled, options.max_nodes, options.is_stopped);
   const Liveness liveness(search);
   ProofContext proof(reading.catalog, search, liveness, options.max_nodes, reporter);
   // Special cases first: what they explain is not explained again.

@@ -54,12 +54,14 @@ std::vector<Reason> constraints_on(const CompiledCatalog& catalog, const Relevan
   return constraints;
 }
 
-AssignmentSearch::AssignmentSearch(CompiledCatalog catalog, std::uint64_t max_nodes)
+AssignmentSearch::AssignmentSearch(CompiledCatalog catalog, std::uint64_t max_nodes,
+                                   std::function<bool()> is_stopped)
     : catalog_(std::move(catalog)),
       tasks_(catalog_.tasks.begin(), catalog_.tasks.end()),
       any_(catalog_, search_options(max_nodes, true), no_ranks_),
       best_(catalog_, search_options(max_nodes, false), no_ranks_),
       domains_(catalog_.words.back(), 0),
+      is_stopped_(std::move(is_stopped)),
       effort_left_(most_effort_of_search) {
   catalog_.tasks = tasks_;
   for (ValueId value(0); value < catalog_.values.items.size(); ++value) {
@@ -172,6 +174,7 @@ void AssignmentSearch::close_misfits(std::span<const std::uint32_t> situation) {
 
 /// A solution that a limit left unproven is no answer where the best one is sought.
 Feasibility AssignmentSearch::solve(Solver& solver, Assignment& solution) {
+  if (is_stopped()) effort_left_ = 0;
   if (effort_left_ == 0) return Feasibility::unknown;
   const SearchResult result = solver.solve(problem_, solution);
   spend(result.nodes * effort_of_a_node + problem_.may_stop.size() +
@@ -442,6 +445,7 @@ std::vector<ConflictSearch> ProofContext::relaxed(std::span<const Goal> goals) c
 Feasibility ProofContext::solve(ConflictSearch& problem, std::span<const Reason> reasons) {
   if (is_exhausted()) return Feasibility::unknown;
   const std::uint64_t before = problem.effort();
+  if (search_.is_stopped()) effort_left_ = 0;
   const Feasibility answer = problem.solve(reasons, effort_left_);
   spend(problem.effort() - before);
   return answer;

@@ -56,8 +56,9 @@ inline constexpr std::size_t most_constraints = 20'000;
 /// The effort of one object is bounded: past it, all answers are unknown.
 class AssignmentSearch {
  public:
-  /// `max_nodes`: decisions for one answer.
-  AssignmentSearch(CompiledCatalog catalog, std::uint64_t max_nodes);
+  /// `max_nodes`: decisions for one answer. `is_stopped`: see LintOptions.
+  AssignmentSearch(CompiledCatalog catalog, std::uint64_t max_nodes,
+                   std::function<bool()> is_stopped = {});
 
   AssignmentSearch(const AssignmentSearch&) = delete;
   AssignmentSearch& operator=(const AssignmentSearch&) = delete;
@@ -66,6 +67,7 @@ class AssignmentSearch {
 
   /// Whether the effort is used up.
   [[nodiscard]] bool is_exhausted() const { return effort_left_ == 0; }
+  [[nodiscard]] bool is_stopped() const { return is_stopped_ && is_stopped_(); }
 
   /// Rules out a value that no assignment has, so that it is not tried again.
   void rule_out(ValueId value);
@@ -124,6 +126,7 @@ class AssignmentSearch {
   std::vector<std::uint64_t> domains_;  ///< of all tasks, without the values that are ruled out
   std::vector<Condition> conditions_;   ///< of all values that have any, ascending
   Problem problem_;
+  const std::function<bool()> is_stopped_;
   std::uint64_t effort_left_;
 };
 

@@ -1,6 +1,7 @@
 #include "lsp/language/hover.h"
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
 #include <set>
 #include <utility>
@@ -24,12 +25,20 @@ using Texts = std::vector<std::string>;
 /// More things than these are counted.
 constexpr std::size_t most_listed = 20;
 
+/// For the inside of a line. An underscore within a word has no meaning, and is not shown well with
+/// a backslash where an editor shows the text as it is.
 std::string escaped(std::string_view text) {
+  constexpr std::string_view special = "\\`*[]<>|~&";
+  const std::string shown = printable(text);
+  const auto is_of_word = [&shown](std::size_t place) {
+    return place < shown.size() &&
+           (std::isalnum(static_cast<unsigned char>(shown[place])) != 0 || shown[place] == '_');
+  };
   std::string result;
-  for (const char byte : printable(text)) {
-    constexpr std::string_view special = "\\`*_{}[]()<>#+-.!|~&$^=:\"'";
-    if (special.find(byte) != std::string_view::npos) result += '\\';
-    result += byte;
+  for (std::size_t place = 0; place < shown.size(); ++place) {
+    const bool is_edge = shown[place] == '_' && !(is_of_word(place - 1) && is_of_word(place + 1));
+    if (is_edge || special.find(shown[place]) != std::string_view::npos) result += '\\';
+    result += shown[place];
   }
   return result;
 }

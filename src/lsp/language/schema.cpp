@@ -11,20 +11,20 @@
 namespace cbc::lsp {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using SchemaJson = nlohmann::ordered_json;
 using cli::FileKind;
 
 /// Null if there is none.
-const Json* schema_of(FileKind kind) {
-  static const std::map<FileKind, Json> schemas = [] {
+const SchemaJson* schema_of(FileKind kind) {
+  static const std::map<FileKind, SchemaJson> schemas = [] {
     const std::map<std::string_view, FileKind> kinds = {{"catalog", FileKind::catalog},
                                                         {"script", FileKind::script},
                                                         {"properties", FileKind::properties},
                                                         {"settings", FileKind::settings}};
-    std::map<FileKind, Json> parsed;
+    std::map<FileKind, SchemaJson> parsed;
     for (const cli::EmbeddedFile& file : cli::schema_files) {
       const auto found = kinds.find(file.name);
-      if (found != kinds.end()) parsed.emplace(found->second, Json::parse(file.text));
+      if (found != kinds.end()) parsed.emplace(found->second, SchemaJson::parse(file.text));
     }
     return parsed;
   }();
@@ -32,7 +32,7 @@ const Json* schema_of(FileKind kind) {
   return found == schemas.end() ? nullptr : &found->second;
 }
 
-std::string text_in(const Json& part, const char* key) {
+std::string text_in(const SchemaJson& part, const char* key) {
   const auto found = part.find(key);
   return found != part.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
@@ -48,21 +48,21 @@ SchemaPlace::SchemaPlace(FileKind kind, const std::vector<std::string>& path) : 
 }
 
 // Conditions (not, if, then) describe no place: what they name stands in `properties`, too.
-void SchemaPlace::add(const Json& part) {
+void SchemaPlace::add(const SchemaJson& part) {
   if (!part.is_object() || std::find(parts_.begin(), parts_.end(), &part) != parts_.end()) return;
   parts_.push_back(&part);
   add(resolve(part));
   for (const char* const alternatives : {"anyOf", "oneOf", "allOf"}) {
     const auto found = part.find(alternatives);
     if (found == part.end()) continue;
-    for (const Json& alternative : *found) add(alternative);
+    for (const SchemaJson& alternative : *found) add(alternative);
   }
 }
 
 SchemaPlace SchemaPlace::at(std::string_view step) const {
   SchemaPlace place;
   place.root_ = root_;
-  for (const Json* const part : parts_) {
+  for (const SchemaJson* const part : parts_) {
     const auto own = part->find(step.empty() ? "items" : "properties");
     const bool is_known = own != part->end() && (step.empty() || own->contains(step));
     const auto others = part->find("additionalProperties");
@@ -77,20 +77,20 @@ SchemaPlace SchemaPlace::at(std::string_view step) const {
 
 bool SchemaPlace::has_list() const {
   return std::any_of(parts_.begin(), parts_.end(),
-                     [](const Json* part) { return part->contains("items"); });
+                     [](const SchemaJson* part) { return part->contains("items"); });
 }
 
 std::vector<SchemaKey> SchemaPlace::keys() const {
   std::vector<SchemaKey> keys;
-  for (const Json* const part : parts_) {
+  for (const SchemaJson* const part : parts_) {
     const auto properties = part->find("properties");
     if (properties == part->end()) continue;
-    const Json required = part->value("required", Json::array());
+    const SchemaJson required = part->value("required", SchemaJson::array());
     for (const auto& property : properties->items()) {
       const SchemaPlace place = at(property.key());
       const bool is_older_name =
           std::any_of(place.parts_.begin(), place.parts_.end(),
-                      [](const Json* what) { return what->value("deprecated", false); });
+                      [](const SchemaJson* what) { return what->value("deprecated", false); });
       if (is_older_name) continue;
       const bool is_required =
           std::find(required.begin(), required.end(), property.key()) != required.end();
@@ -100,18 +100,19 @@ std::vector<SchemaKey> SchemaPlace::keys() const {
   return keys;
 }
 
-const Json& SchemaPlace::resolve(const Json& part) const {
+const SchemaJson& SchemaPlace::resolve(const SchemaJson& part) const {
   const std::string pointer = text_in(part, "$ref");
-  return pointer.empty() ? part : root_->at(Json::json_pointer(pointer.substr(1)));
+  return pointer.empty() ? part : root_->at(SchemaJson::json_pointer(pointer.substr(1)));
 }
 
 // Such keys are required by alternatives, of which exactly one holds.
 bool SchemaPlace::is_choice(const std::string& key) const {
-  return std::any_of(parts_.begin(), parts_.end(), [&](const Json* part) {
-    const Json choices =
-        part->contains("then") ? resolve(part->at("then")).value("oneOf", Json()) : Json();
-    return std::any_of(choices.begin(), choices.end(), [&](const Json& choice) {
-      const Json required = resolve(choice).value("required", Json::array());
+  return std::any_of(parts_.begin(), parts_.end(), [&](const SchemaJson* part) {
+    const SchemaJson choices = part->contains("then")
+                                   ? resolve(part->at("then")).value("oneOf", SchemaJson())
+                                   : SchemaJson();
+    return std::any_of(choices.begin(), choices.end(), [&](const SchemaJson& choice) {
+      const SchemaJson required = resolve(choice).value("required", SchemaJson::array());
       return std::find(required.begin(), required.end(), key) != required.end();
     });
   });
@@ -119,10 +120,10 @@ bool SchemaPlace::is_choice(const std::string& key) const {
 
 std::vector<std::string> SchemaPlace::words() const {
   std::vector<std::string> words;
-  for (const Json* const part : parts_) {
+  for (const SchemaJson* const part : parts_) {
     const auto choices = part->find("enum");
     if (choices != part->end()) {
-      for (const Json& word : *choices) {
+      for (const SchemaJson& word : *choices) {
         if (word.is_string()) words.push_back(word.get<std::string>());
       }
     }
@@ -133,7 +134,7 @@ std::vector<std::string> SchemaPlace::words() const {
 }
 
 std::string SchemaPlace::description() const {
-  for (const Json* const part : parts_) {
+  for (const SchemaJson* const part : parts_) {
     if (part->contains("description")) return text_in(*part, "description");
   }
   return {};

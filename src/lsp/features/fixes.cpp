@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "core/check/check.h"
+#include "core/check/controls.h"
+#include "core/yaml/source.h"
+#include "lsp/features/features.h"
+
+namespace cbc::lsp {
+namespace {
+
+class FixList {
+ public:
+  FixList(const File& file, std::size_t begin, std::size_t end)
+      : file_(file), text_(file.text->content()) {
+    for (const Diagnostic& finding : file.findings) {
+      const std::size_t from = file.text->offset_of(finding.range.begin);
+      const std::size_t to = file.text->offset_of(finding.range.end);
+      if (to < begin || end < from) continue;
+      add_fix(finding);
+      add_suggestion(finding, from, to);
+      add_allowance(finding, from);
+    }
+  }
+
+  [[nodiscard]] Json release() { return std::move(fixes_); }
+
+ private:
+  void add(const std::string& title, const Diagnostic& finding, std::string_view changed,
+           bool is_preferred) {
+    Json fix = {{"title", title},
+                {"kind", "quickfix"},
+                {"isPreferred", is_preferred},
+                {"edit", {{"changes", {{file_.uri, edits_json(file_, changed)}}}}}};
+    fix["diagnostics"] = {{{"range", to_json(file_.text->range_of(finding.range))},
+                           {"source", "cbc"},
+                           {"code", finding.rule},
+                           {"message", finding.message}}};
+    fixes_.push_back(std::move(fix));
+  }
+
+  /// As `cbc lint --fix` mends this finding.
+  void add_fix(const Diagnostic& finding) {
+    if (finding.edits.empty()) return;
+    const FixedText fixed = apply_fixes(text_, {&finding, 1});
+    if (!fixed.mended.empty()) {
+      add(fmt::format("Fix: {}", finding.message), finding, fixed.text, true);
+    }
+  }
+
+  void add_suggestion(const Diagnostic& finding, std::size_t from, std::size_t to) {
+    constexpr std::string_view question = "did you mean '";
+    const std::size_t found = finding.message.rfind(question);
+    if (found == std::string::npos) return;
+    const std::size_t begin = found + question.size();
+    const std::size_t end = finding.message.find("'?", begin);
+    if (end == std::string::npos) return;
+    const std::string meant = finding.message.substr(begin, end - begin);
+    const std::string_view written = text_.substr(from, to - from);
+    const bool is_quoted = !written.empty() && (written.front() == '"' || written.front() == '\'');
+    std::string changed(text_.substr(0, from));
+    changed += is_quoted ? yaml::in_quotes(meant) : meant;
+    changed += text_.substr(to);
+    add(fmt::format("Change to '{}'", meant), finding, changed, true);
+  }
+
+  /// A comment at the end of the line, or one more rule in the comment that is there.
+  void add_allowance(const Diagnostic& finding, std::size_t from) {
+    if (is_fixed(finding) || file_.kind == cli::FileKind::settings) return;
+    std::size_t end = yaml::end_of_line(text_, from);
+    if (end > from && text_[end - 1] == '\r') --end;
+    const std::size_t begin = from == 0 ? 0 : text_.rfind('\n', from - 1) + 1;
+    const std::string_view line = text_.substr(begin, end - begin);
+    constexpr std::string_view comment = "# cbc: allow ";
+    std::string changed(text_.substr(0, end));
+    if (const std::size_t place = line.find(comment); place != std::string_view::npos) {
+      changed.insert(begin + place + comment.size(), fmt::format("{}, ", finding.rule));
+    } else if (line.find('#') == std::string_view::npos) {
+      changed += fmt::format("  {}{}", comment, finding.rule);
+    } else {
+      return;
+    }
+    changed += text_.substr(end);
+    add(fmt::format("Allow {} here, by a comment", finding.rule), finding, changed, false);
+  }
+
+  const File& file_;
+  const std::string_view text_;
+  Json fixes_ = Json::array();
+};
+
+}  // namespace
+
+Json list_fixes(const File& file, std::size_t begin, std::size_t end) {
+  if (file.text == nullptr) return Json::array();
+  return FixList(file, begin, end).release();
+}
+
+}  // namespace cbc::lsp

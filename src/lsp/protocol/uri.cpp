@@ -1,0 +1,47 @@
+#include "lsp/protocol/uri.h"
+
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+
+#include <fmt/core.h>
+
+namespace cbc::lsp {
+
+std::optional<std::string> path_of_uri(std::string_view uri) {
+  constexpr std::string_view scheme = "file://";
+  if (!uri.starts_with(scheme)) return std::nullopt;
+  uri.remove_prefix(scheme.size());
+  constexpr std::string_view host = "localhost";
+  if (uri.starts_with(host)) uri.remove_prefix(host.size());
+  std::string path;
+  for (std::size_t at = 0; at < uri.size(); ++at) {
+    unsigned char byte = 0;
+    if (uri[at] != '%') {
+      path += uri[at];
+    } else if (at + 2 < uri.size() &&
+               std::from_chars(uri.data() + at + 1, uri.data() + at + 3, byte, 16).ptr ==
+                   uri.data() + at + 3 &&
+               byte != 0) {
+      path += static_cast<char>(byte);
+      at += 2;
+    } else {
+      return std::nullopt;
+    }
+  }
+  if (!path.starts_with('/')) return std::nullopt;
+  return std::filesystem::path(path).lexically_normal().string();
+}
+
+std::string uri_of_path(std::string_view path) {
+  std::string uri = "file://";
+  for (const char character : path) {
+    const auto byte = static_cast<unsigned char>(character);
+    const bool is_plain =
+        std::isalnum(byte) != 0 || std::string_view("/-._~").find(character) != std::string::npos;
+    uri += is_plain ? std::string(1, character) : fmt::format("%{:02X}", byte);
+  }
+  return uri;
+}
+
+}  // namespace cbc::lsp

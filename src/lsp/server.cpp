@@ -1,0 +1,480 @@
+#include "lsp/server.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <thread>
+#include <utility>
+
+#include "cbc/version.h"
+#include "lsp/language/completion.h"
+#include "lsp/language/context.h"
+#include "lsp/language/hover.h"
+#include "lsp/protocol/uri.h"
+
+namespace cbc::lsp {
+namespace {
+
+// Error codes of the protocol.
+constexpr int parse_error = -32700;
+constexpr int invalid_request = -32600;
+constexpr int method_not_found = -32601;
+constexpr int invalid_params = -32602;
+constexpr int not_initialized = -32002;
+constexpr int request_cancelled = -32800;
+constexpr int request_failed = -32803;
+
+/// How long nobody types before findings are found.
+constexpr auto pause_of_typing = std::chrono::milliseconds(100);
+constexpr auto look_for_client = std::chrono::seconds(2);
+
+std::string text_of(const Json& value) {
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// A member of a member; null if there is none.
+Json find_member(const Json& value, std::initializer_list<const char*> names) {
+  const Json* at = &value;
+  for (const char* const name : names) {
+    const auto found = at->is_object() ? at->find(name) : at->end();
+    if (found == at->end()) return nullptr;
+    at = &*found;
+  }
+  return *at;
+}
+
+Place place_of(const Json& position) {
+  return {position.at("line").get<std::uint32_t>(), position.at("character").get<std::uint32_t>()};
+}
+
+/// Which message an item of the inbox takes back, or null.
+const Json* cancelled_by(const Json& message) {
+  if (find_member(message, {"method"}) != "$/cancelRequest") return nullptr;
+  const auto params = message.find("params");
+  if (params == message.end() || !params->is_object()) return nullptr;
+  const auto id = params->find("id");
+  return id == params->end() ? nullptr : &*id;
+}
+
+const Catalog* known_catalog(const Workspace& workspace, const File& file) {
+  const File* const catalog = workspace.catalog_of(file);
+  return catalog != nullptr && catalog->last_names != nullptr ? &catalog->last_names->catalog
+                                                              : nullptr;
+}
+
+// CompletionItemKind of the protocol.
+int kind_number(Completion::Kind kind) {
+  switch (kind) {
+    case Completion::Kind::key:
+      return 10;
+    case Completion::Kind::task:
+      return 7;
+    case Completion::Kind::behavior:
+      return 3;
+    case Completion::Kind::variable:
+      return 6;
+    case Completion::Kind::value:
+      return 12;
+    case Completion::Kind::snippet:
+      break;
+  }
+  return 15;
+}
+
+Json completions_at(const Cursor& cursor) {
+  const std::string& text = cursor.file.text->content();
+  const Context context = context_at(text, cursor.offset);
+  const std::size_t begin = std::min(context.begin, cursor.offset);
+  const std::size_t end = std::max(context.end, cursor.offset);
+  Json items = Json::array();
+  for (const Completion& found :
+       complete(context, cursor.file.kind, known_catalog(cursor.workspace, cursor.file))) {
+    Json item = {
+        {"label", found.label},
+        {"kind", kind_number(found.kind)},
+        {"insertTextFormat", found.is_snippet ? 2 : 1},
+        {"textEdit",
+         {{"range", range_json(*cursor.file.text, begin, end)}, {"newText", found.insert}}}};
+    if (!found.detail.empty()) item["detail"] = found.detail;
+    if (!found.documentation.empty()) {
+      item["documentation"] = found.documentation;
+    }
+    items.push_back(std::move(item));
+  }
+  return {{"isIncomplete", false}, {"items", std::move(items)}};
+}
+
+Json hover_at(const Cursor& cursor) {
+  const Text& text = *cursor.file.text;
+  const Context context = context_at(text.content(), cursor.offset);
+  std::string said =
+      describe(context, cursor.file.kind, known_catalog(cursor.workspace, cursor.file));
+  for (const Diagnostic& finding : cursor.file.findings) {
+    if (!cursor.file.is_parsed) break;  // they are about an older text
+    const bool is_here = text.offset_of(finding.range.begin) <= cursor.offset &&
+                         cursor.offset <= text.offset_of(finding.range.end);
+    if (!is_here) continue;
+    if (!said.empty()) said += "\n\n---\n\n";
+    said += describe_rule(finding.rule);
+  }
+  if (said.empty()) return nullptr;
+  Json hover = {{"contents", {{"kind", "markdown"}, {"value", said}}}};
+  if (context.begin < context.end) hover["range"] = range_json(text, context.begin, context.end);
+  return hover;
+}
+
+}  // namespace
+
+Server::Server(std::FILE* output) : output_(output) {
+  add_requests();
+  add_notifications();
+}
+
+int Server::run(std::FILE* input) {
+  // It may wait for input that never comes, so it is left alone at the end.
+  std::thread([this, input] {
+    while (auto message = read_message(input)) {
+      Json parsed = Json::parse(*message, nullptr, false);
+      inbox_.put(std::move(parsed));
+    }
+    inbox_.put(End{});
+  }).detach();
+  while (!exit_status_) {
+    const bool is_quiet = Clock::now() >= quiet_since_ + pause_of_typing;
+    const bool has_news = workspace_ != nullptr && workspace_->has_news();
+    const Clock::time_point until = !has_news  ? Clock::now() + look_for_client
+                                    : is_quiet ? Clock::now()
+                                               : quiet_since_ + pause_of_typing;
+    if (auto item = inbox_.take(until)) {
+      if (const auto* const message = std::get_if<Json>(&*item)) {
+        take(*message);
+      } else if (auto* const proved = std::get_if<Proved>(&*item)) {
+        take_proofs(std::move(*proved));
+      } else {
+        exit_status_ = was_shut_down_ ? 0 : 1;
+      }
+    } else if (!work() && is_client_gone()) {
+      exit_status_ = 1;
+    }
+  }
+  proofs_.reset();
+  return *exit_status_;
+}
+
+bool Server::is_client_gone() const {
+  return client_process_ > 0 && ::kill(static_cast<pid_t>(client_process_), 0) != 0 &&
+         errno == ESRCH;
+}
+
+void Server::take(const Json& message) {
+  if (message.is_discarded()) return refuse(nullptr, parse_error, "expected JSON");
+  const Json id = find_member(message, {"id"});
+  const Json method = find_member(message, {"method"});
+  if (!method.is_string()) {
+    const bool is_response =
+        message.is_object() && (message.contains("result") || message.contains("error"));
+    if (!is_response) refuse(id, invalid_request, "expected a method");
+    return;
+  }
+  const Json params = find_member(message, {"params"});
+  if (!id.is_null()) return answer(id, method.get<std::string>(), params);
+  const auto found = notifications_.find(method.get<std::string>());
+  const bool is_expected = workspace_ != nullptr || method == "exit";
+  if (found == notifications_.end() || !is_expected) return;
+  try {
+    found->second(params);
+  } catch (const Json::exception&) {
+    // There is nobody to tell: a notification has no answer.
+  }
+}
+
+void Server::answer(const Json& id, const std::string& method, const Json& params) {
+  if (workspace_ == nullptr && method != "initialize") {
+    return refuse(id, not_initialized, "expected 'initialize' first");
+  }
+  if (was_shut_down_) return refuse(id, invalid_request, "the server was shut down");
+  const bool is_cancelled = inbox_.has([&id](const Item& item) {
+    const Json* const message = std::get_if<Json>(&item);
+    const Json* const cancelled = message == nullptr ? nullptr : cancelled_by(*message);
+    return cancelled != nullptr && *cancelled == id;
+  });
+  if (is_cancelled) return refuse(id, request_cancelled, "cancelled");
+  const auto found = requests_.find(method);
+  if (found == requests_.end()) return refuse(id, method_not_found, "there is no such method");
+  try {
+    respond(id, found->second(params));
+  } catch (const Json::exception& error) {
+    refuse(id, invalid_params, error.what());
+  } catch (const Refusal& refusal) {
+    refuse(id, request_failed, refusal.what());
+  }
+}
+
+void Server::respond(const Json& id, Json result) {
+  output_.write(text_of({{"jsonrpc", "2.0"}, {"id", id}, {"result", std::move(result)}}));
+}
+
+void Server::refuse(const Json& id, int code, const std::string& message) {
+  output_.write(
+      text_of({{"jsonrpc", "2.0"}, {"id", id}, {"error", {{"code", code}, {"message", message}}}}));
+}
+
+void Server::notify(const std::string& method, Json params) {
+  output_.write(text_of({{"jsonrpc", "2.0"}, {"method", method}, {"params", std::move(params)}}));
+}
+
+void Server::request(const std::string& method, Json params) {
+  output_.write(text_of({{"jsonrpc", "2.0"},
+                         {"id", "cbc-" + std::to_string(++requests_made_)},
+                         {"method", method},
+                         {"params", std::move(params)}}));
+}
+
+Json Server::initialize(const Json& params) {
+  if (workspace_ != nullptr) throw Refusal("it is initialized already");
+  const Json encodings = find_member(params, {"capabilities", "general", "positionEncodings"});
+  const bool has_utf8 = encodings.is_array() &&
+                        std::find(encodings.begin(), encodings.end(), "utf-8") != encodings.end();
+  encoding_ = has_utf8 ? Encoding::utf8 : Encoding::utf16;
+  workspace_ = std::make_unique<Workspace>(encoding_);
+  proofs_ = std::make_unique<Proofs>([this](const Proofs::Job& job, CheckedCatalog proved) {
+    inbox_.put(Proved{job, std::move(proved)});
+  });
+  const Json process = find_member(params, {"processId"});
+  if (process.is_number_integer()) client_process_ = process.get<long long>();
+  can_watch_ = find_member(params, {"capabilities", "workspace", "didChangeWatchedFiles",
+                                    "dynamicRegistration"}) == true;
+  const auto add_folder = [this](const Json& uri) {
+    const auto path = uri.is_string() ? path_of_uri(uri.get<std::string>()) : std::nullopt;
+    if (path) workspace_->add_folder(*path);
+  };
+  const Json folders = find_member(params, {"workspaceFolders"});
+  if (folders.is_array()) {
+    for (const Json& folder : folders) add_folder(find_member(folder, {"uri"}));
+  } else {
+    add_folder(find_member(params, {"rootUri"}));
+  }
+  Json capabilities = {
+      {"positionEncoding", has_utf8 ? "utf-8" : "utf-16"},
+      {"textDocumentSync", {{"openClose", true}, {"change", 2}, {"save", true}}},
+      {"completionProvider", {{"triggerCharacters", {" ", "{", "[", ","}}}},
+      {"hoverProvider", true},
+      {"definitionProvider", true},
+      {"referencesProvider", true},
+      {"documentHighlightProvider", true},
+      {"documentSymbolProvider", true},
+      {"foldingRangeProvider", true},
+      {"codeActionProvider", {{"codeActionKinds", {"quickfix"}}}},
+      {"renameProvider", {{"prepareProvider", true}}},
+      {"inlayHintProvider", true},
+      {"workspace", {{"workspaceFolders", {{"supported", true}, {"changeNotifications", true}}}}}};
+  return {{"capabilities", std::move(capabilities)},
+          {"serverInfo", {{"name", "cbc"}, {"version", std::string(version)}}}};
+}
+
+const File* Server::file_of(const Json& params) {
+  const auto path = path_of_uri(params.at("textDocument").at("uri").get_ref<const std::string&>());
+  if (!path || workspace_->find(*path) == nullptr) return nullptr;
+  workspace_->check_now(*path);
+  const File* const file = workspace_->find(*path);
+  return file->text == nullptr ? nullptr : file;
+}
+
+const File* Server::text_of_request(const Json& params) {
+  const auto path = path_of_uri(params.at("textDocument").at("uri").get_ref<const std::string&>());
+  const File* const file = path ? workspace_->find(*path) : nullptr;
+  if (file == nullptr || file->text == nullptr) return nullptr;
+  return known_catalog(*workspace_, *file) == nullptr ? file_of(params) : file;
+}
+
+template <typename Use>
+Json Server::at_cursor(const Json& params, const File* file, Json otherwise, const Use& use) {
+  if (file == nullptr) return otherwise;
+  return use(Cursor{*workspace_, *file, file->text->offset_of(place_of(params.at("position")))});
+}
+
+void Server::add_requests() {
+  requests_["initialize"] = [this](const Json& params) { return initialize(params); };
+  // For tests: whether all is found that there is to find.
+  requests_["cbc/isIdle"] = [this](const Json&) {
+    if (workspace_->has_news()) return Json(false);
+    return Json(workspace_->next_to_prove() == nullptr);
+  };
+  requests_["shutdown"] = [this](const Json&) {
+    was_shut_down_ = true;
+    return Json();
+  };
+  requests_["textDocument/completion"] = [this](const Json& params) {
+    return at_cursor(params, text_of_request(params), Json::array(), &completions_at);
+  };
+  requests_["textDocument/hover"] = [this](const Json& params) {
+    return at_cursor(params, text_of_request(params), nullptr, &hover_at);
+  };
+  requests_["textDocument/definition"] = [this](const Json& params) {
+    return at_cursor(params, file_of(params), nullptr, &find_definition);
+  };
+  requests_["textDocument/references"] = [this](const Json& params) {
+    const bool with_definition = find_member(params, {"context", "includeDeclaration"}) == true;
+    workspace_->check_all();
+    return at_cursor(params, file_of(params), Json::array(), [&](const Cursor& cursor) {
+      return find_references(cursor, with_definition);
+    });
+  };
+  requests_["textDocument/documentHighlight"] = [this](const Json& params) {
+    return at_cursor(params, file_of(params), Json::array(), &find_highlights);
+  };
+  requests_["textDocument/prepareRename"] = [this](const Json& params) {
+    return at_cursor(params, file_of(params), nullptr, &prepare_rename);
+  };
+  requests_["textDocument/rename"] = [this](const Json& params) {
+    const auto new_name = params.at("newName").get<std::string>();
+    workspace_->check_all();
+    return at_cursor(params, file_of(params), nullptr, [&](const Cursor& cursor) -> Json {
+      return {{"documentChanges", rename(cursor, new_name)}};
+    });
+  };
+  requests_["textDocument/documentSymbol"] = [this](const Json& params) {
+    const File* const file = file_of(params);
+    return file == nullptr ? Json::array() : list_symbols(*file);
+  };
+  requests_["textDocument/foldingRange"] = [this](const Json& params) {
+    const File* const file = file_of(params);
+    return file == nullptr ? Json::array() : list_folds(*file);
+  };
+  const auto in_range = [this](const Json& params, const auto& list) {
+    const File* const file = file_of(params);
+    if (file == nullptr) return Json(Json::array());
+    const Json& range = params.at("range");
+    return list(*file, file->text->offset_of(place_of(range.at("start"))),
+                file->text->offset_of(place_of(range.at("end"))));
+  };
+  requests_["textDocument/codeAction"] = [in_range](const Json& params) {
+    return in_range(params, &list_fixes);
+  };
+  requests_["textDocument/inlayHint"] = [this, in_range](const Json& params) {
+    return in_range(params, [this](const File& file, std::size_t begin, std::size_t end) {
+      return list_hints(*workspace_, file, begin, end);
+    });
+  };
+}
+
+void Server::add_notifications() {
+  const auto path_in = [](const Json& params) {
+    return path_of_uri(params.at("textDocument").at("uri").get_ref<const std::string&>());
+  };
+  notifications_["exit"] = [this](const Json&) { exit_status_ = was_shut_down_ ? 0 : 1; };
+  notifications_["initialized"] = [this](const Json&) { begin(); };
+  notifications_["textDocument/didOpen"] = [this, path_in](const Json& params) {
+    const Json& document = params.at("textDocument");
+    if (const auto path = path_in(params)) {
+      workspace_->set_text(*path, document.at("uri").get<std::string>(),
+                           document.at("version").get<std::int64_t>(),
+                           document.at("text").get<std::string>());
+    }
+  };
+  notifications_["textDocument/didChange"] = [this](const Json& params) { change_text(params); };
+  notifications_["textDocument/didClose"] = [this, path_in](const Json& params) {
+    const auto path = path_in(params);
+    const File* const file = path ? workspace_->find(*path) : nullptr;
+    if (file == nullptr) return;
+    notify("textDocument/publishDiagnostics", {{"uri", file->uri}, {"diagnostics", Json::array()}});
+    published_.erase(*path);
+    workspace_->close(*path);
+  };
+  notifications_["workspace/didChangeWatchedFiles"] = [this](const Json& params) {
+    for (const Json& change : params.at("changes")) {
+      if (const auto path = path_of_uri(change.at("uri").get_ref<const std::string&>())) {
+        workspace_->reread(*path);
+      }
+    }
+  };
+  notifications_["workspace/didChangeWorkspaceFolders"] = [this](const Json& params) {
+    for (const Json& folder : params.at("event").at("removed")) {
+      if (const auto path = path_of_uri(folder.at("uri").get_ref<const std::string&>())) {
+        workspace_->remove_folder(*path);
+      }
+    }
+    for (const Json& folder : params.at("event").at("added")) {
+      if (const auto path = path_of_uri(folder.at("uri").get_ref<const std::string&>())) {
+        workspace_->add_folder(*path);
+      }
+    }
+  };
+}
+
+void Server::begin() {
+  if (!can_watch_) return;
+  const Json watchers = {{{"globPattern", "**/*.{yaml,yml}"}}};
+  request("client/registerCapability", {{"registrations",
+                                         {{{"id", "files"},
+                                           {"method", "workspace/didChangeWatchedFiles"},
+                                           {"registerOptions", {{"watchers", watchers}}}}}}});
+}
+
+void Server::change_text(const Json& params) {
+  const Json& document = params.at("textDocument");
+  const auto path = path_of_uri(document.at("uri").get_ref<const std::string&>());
+  const File* const file = path ? workspace_->find(*path) : nullptr;
+  if (file == nullptr || !file->version) return;
+  std::string text = file->text->content();
+  for (const Json& change : params.at("contentChanges")) {
+    if (!change.contains("range")) {
+      text = change.at("text").get<std::string>();
+      continue;
+    }
+    const Text before(std::move(text), encoding_);
+    const std::size_t begin = before.offset_of(place_of(change.at("range").at("start")));
+    const std::size_t end = before.offset_of(place_of(change.at("range").at("end")));
+    text = before.content().substr(0, begin);
+    text += change.at("text").get_ref<const std::string&>();
+    text += before.content().substr(std::max(begin, end));
+  }
+  workspace_->set_text(*path, file->uri, document.at("version").get<std::int64_t>(),
+                       std::move(text));
+  quiet_since_ = Clock::now();
+}
+
+bool Server::work() {
+  if (workspace_ == nullptr) return false;
+  if (workspace_->has_news()) {
+    publish(workspace_->next_checked());
+    if (!workspace_->has_news()) prove_next();
+    return true;
+  }
+  return false;
+}
+
+/// The next proofs, unless they are those that are being made.
+void Server::prove_next() {
+  const File* const file = workspace_->next_to_prove();
+  if (file == nullptr) return proofs_->stop();
+  if (proofs_->present() == file->input) return;
+  const std::string path = file->path;
+  const auto settings = workspace_->settings_of(path);
+  if (settings) proofs_->begin({path, workspace_->find(path)->input, *settings});
+}
+
+void Server::take_proofs(Proved proved) {
+  const File* const file =
+      workspace_->add_proofs(proved.job.path, *proved.job.input, std::move(proved.catalog));
+  if (file != nullptr) publish(*file);
+  if (!workspace_->has_news()) prove_next();
+}
+
+/// Files that are neither open nor in the workspace are others' business.
+void Server::publish(const File& file) {
+  const bool is_shown = file.text != nullptr && (file.version || !file.folder.empty());
+  Json diagnostics = is_shown ? diagnostics_json(*workspace_, file) : Json::array();
+  const bool was_published = published_.contains(file.path);
+  if (diagnostics.empty() && !was_published && !file.version) return;
+  if (diagnostics.empty()) {
+    published_.erase(file.path);
+  } else {
+    published_.insert(file.path);
+  }
+  Json params = {{"uri", file.uri}, {"diagnostics", std::move(diagnostics)}};
+  if (file.version) params["version"] = *file.version;
+  notify("textDocument/publishDiagnostics", std::move(params));
+}
+
+}  // namespace cbc::lsp

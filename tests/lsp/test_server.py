@@ -1,0 +1,449 @@
+"""`cbc lsp` as an editor sees it, by a client that follows scripts."""
+
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import tempfile
+import unittest
+
+from client import PATIENCE, SOURCE, Client, run_cbc, span, uri_of
+
+ROBOT = """\
+situation:
+- {variable: AIR, values: [clear, dusty]}
+behaviors:
+- {behavior: DRIVE_FAST, task: DRIVE, suitability: 90, requires: [{task: LOCALIZE}], situation: {AIR: clear}}
+- {behavior: DRIVE_SLOWLY, task: DRIVE, suitability: 50}
+- {behavior: LIDAR, task: LOCALIZE}
+tasks:
+- {task: DRIVE}
+- {task: LOCALIZE, start_on_request: false}
+"""
+MISSION = """\
+catalog: robot.yaml
+events:
+- start: DRIVE
+- expect: {active: [DRIVE_FAST, LIDAR]}
+- situation: {AIR: dusty}
+- expect: {running: {DRIVE: DRIVE_FAST}}
+"""
+PROPERTIES = """\
+catalog: robot.yaml
+properties:
+- {name: drives somehow, can_start: DRIVE}
+"""
+SETTINGS = "warn: [can-run-together]\nnever_together:\n- [DRIVE, LOCALIZE]\n"
+
+
+class LspTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp()).resolve()
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.robot = self.write("robot.yaml", ROBOT)
+        self.mission = self.write("mission.yaml", MISSION)
+        self.properties = self.write("robot.properties.yaml", PROPERTIES)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(text.encode())
+        return path
+
+    def start(self, **options):
+        client = Client(self.folder, **options)
+        self.addCleanup(client.__exit__)
+        return client
+
+    def messages(self, client, path):
+        return [finding["message"] for finding in client.findings.get(str(path), [])]
+
+
+class Protocol(LspTest):
+    def test_errors(self):
+        client = self.start(begin=False)
+        self.assertEqual(client.try_ask("textDocument/hover", {})["error"]["code"], -32002)
+        client.tell("textDocument/didOpen", {})  # too early, and no answer
+        client.ask("initialize", {"processId": None, "rootUri": uri_of(self.folder), "capabilities": {}})
+        for method, params, code in (("no/such", {}, -32601), ("textDocument/hover", {}, -32602),
+                                     ("textDocument/hover", None, -32602), ("textDocument/hover", [1], -32602),
+                                     ("initialize", {}, -32803)):
+            self.assertEqual(client.try_ask(method, params)["error"]["code"], code, method)
+        client.write(b"Content-Length: 3\r\n\r\n[1,")
+        self.assertEqual(client.answer(None)["error"]["code"], -32700)
+        client.write(b"content-length:2\r\nContent-Type: x\r\n\r\n{}")
+        self.assertEqual(client.answer(None)["error"]["code"], -32600)
+        client.tell("no/such", {})
+        client.tell("$/setTrace", {"value": "off"})
+        self.assertIsNone(client.ask("shutdown", None))
+        self.assertEqual(client.try_ask("textDocument/hover", {})["error"]["code"], -32600)
+        client.tell("exit", None)
+        self.assertEqual(client.process.wait(PATIENCE), 0)
+
+    def test_requests_that_were_cancelled(self):
+        client = self.start()
+        client.send({"id": "a", "method": "textDocument/documentSymbol",
+                     "params": {"textDocument": {"uri": uri_of(self.robot)}}})
+        client.tell("$/cancelRequest", {"id": "a"})
+        answer = client.answer("a")
+        self.assertIn(answer.get("error", {}).get("code"), (None, -32800))
+
+    def test_the_end(self):
+        for end in ("exit", "close", "garbage"):
+            client = self.start()
+            if end == "exit":
+                client.tell("exit", None)
+            elif end == "close":
+                client.process.stdin.close()
+            else:
+                client.write(b"What is this?\r\n\r\n")
+            self.assertEqual(client.process.wait(PATIENCE), 1)
+
+    def test_a_client_that_is_gone(self):
+        parent = subprocess.Popen(["sleep", "600"])
+        client = self.start(begin=False)
+        client.ask("initialize", {"processId": parent.pid, "rootUri": None, "capabilities": {}})
+        parent.send_signal(signal.SIGKILL)
+        parent.wait()
+        self.assertEqual(client.process.wait(PATIENCE), 1)
+
+    def test_places_with_characters_of_any_length(self):
+        text = ROBOT.replace("DRIVE_SLOWLY", "\U0001F422_é").replace("\n", "\r\n")
+        line = next(at for at, words in enumerate(text.splitlines()) if "\U0001F422" in words)
+        column = text.splitlines()[line].index("\U0001F422")
+        for encodings, end in ((["utf-16"], column + 4), (["utf-8", "utf-16"], column + 7)):
+            client = self.start(capabilities={"general": {"positionEncodings": encodings}})
+            self.assertEqual(client.capabilities["positionEncoding"], encodings[0])
+            client.open(self.robot, text)
+            found = client.at("documentHighlight", self.robot, line, end)
+            self.assertEqual([item["range"] for item in found], [span(line, column, line, end)])
+            # An edit behind the name, and one that takes it away.
+            client.change(self.robot, 2, {"range": span(line, end, line, end), "text": "x"})
+            found = client.at("documentHighlight", self.robot, line, end)
+            self.assertEqual(found[0]["range"], span(line, column, line, end + 1))
+            client.change(self.robot, 3, {"range": span(line, column, line, end + 1), "text": "SLOW"},
+                          {"range": span(line, column, line, column), "text": "VERY_"})
+            found = client.at("documentHighlight", self.robot, line, column)
+            self.assertEqual(found[0]["range"], span(line, column, line, column + 9))
+
+
+class Findings(LspTest):
+    def of_lint(self, folder):
+        output = run_cbc("lint", "--format", "json", folder)[1] or '{"files": []}'
+        levels = {"error": 1, "warning": 2, "note": 3}
+        return {os.path.normpath(file["file"]): sorted(
+            (found["rule"], levels[found["severity"]], found["message"]) for found in file["diagnostics"])
+            for file in json.loads(output)["files"] if file["diagnostics"]}
+
+    def of_server(self, client):
+        client.settle()
+        return {path: sorted((found["code"], found["severity"], found["message"]) for found in findings)
+                for path, findings in client.findings.items() if findings}
+
+    def check_equal(self, client, folder):
+        expected, found = self.of_lint(folder), self.of_server(client)
+        for path in sorted(expected.keys() | found.keys()):
+            # Of settings that cannot be used, lint says so beside its findings.
+            if not path.endswith(".cbc.yaml"):
+                self.assertEqual(found.get(path), expected.get(path), path)
+
+    def test_the_corpus(self):
+        for name in ("catalogs", "docs", "tests/golden/cases"):
+            with Client(SOURCE / name) as client:
+                self.check_equal(client, SOURCE / name)
+
+    def test_versions_and_closed_files(self):
+        client = self.start()
+        client.open(self.robot, ROBOT.replace("task: LOCALIZE}]", "task: LOCALISE}]"), version=7)
+        client.settle()
+        self.assertIn("did you mean 'LOCALIZE'?", self.messages(client, self.robot)[0])
+        self.assertEqual(client.versions[str(self.robot)], 7)
+        client.close(self.robot)
+        client.settle()
+        self.assertEqual(self.messages(client, self.robot), [])
+        outside = pathlib.Path(tempfile.mkdtemp()).resolve() / "other.yaml"
+        client.open(outside, "behaviors: 5\n")
+        client.settle()
+        self.assertEqual(len(self.messages(client, outside)), 1)
+        client.close(outside)
+        client.settle()
+        self.assertEqual(self.messages(client, outside), [])
+
+    def test_what_depends_on_a_catalog(self):
+        client = self.start()
+        client.open(self.robot)
+        client.settle()
+        self.assertEqual(self.messages(client, self.mission), [])
+        client.change(self.robot, 2, {"text": ROBOT.replace("DRIVE", "DRIVING")})
+        client.settle()
+        self.assertIn("DRIVE", self.messages(client, self.mission)[0])
+        self.assertIn("DRIVE", self.messages(client, self.properties)[0])
+        client.change(self.robot, 3, {"text": "behaviors: [{\n"})
+        client.settle()
+        self.assertEqual(len(self.messages(client, self.robot)), 1)
+        client.change(self.robot, 4, {"text": ROBOT})
+        client.settle()
+        self.assertEqual(self.messages(client, self.mission), [])
+
+    def test_files_that_come_and_go(self):
+        client = self.start(capabilities={"workspace": {"didChangeWatchedFiles": {"dynamicRegistration": True}}})
+        client.settle()
+        self.assertEqual(client.requests[0]["method"], "client/registerCapability")
+        bad = self.write("bad.yaml", "behaviors: 5\n")
+        changed = {"uri": uri_of(bad), "type": 1}
+        client.tell("workspace/didChangeWatchedFiles", {"changes": [changed]})
+        client.settle()
+        self.assertEqual(len(self.messages(client, bad)), 1)
+        bad.unlink()
+        client.tell("workspace/didChangeWatchedFiles", {"changes": [{**changed, "type": 3}]})
+        client.settle()
+        self.assertEqual(self.messages(client, bad), [])
+
+    def test_settings(self):
+        client = self.start()
+        settings = self.write(".cbc.yaml", SETTINGS)
+        client.open(settings)
+        client.settle()
+        self.assertIn("DRIVE", " ".join(self.messages(client, self.robot)))
+        client.change(settings, 2, {"text": SETTINGS.replace("LOCALIZE]", "LOCALISE]")})
+        client.settle()
+        self.assertIn("LOCALISE", self.messages(client, settings)[0])
+
+    def test_folders(self):
+        other = pathlib.Path(tempfile.mkdtemp()).resolve()
+        self.addCleanup(shutil.rmtree, other)
+        (other / "bad.yaml").write_text("behaviors: 5\n")
+        client = self.start()
+        folder = {"uri": uri_of(other), "name": "other"}
+        client.tell("workspace/didChangeWorkspaceFolders", {"event": {"added": [folder], "removed": []}})
+        client.settle()
+        self.assertEqual(len(self.messages(client, other / "bad.yaml")), 1)
+        client.tell("workspace/didChangeWorkspaceFolders", {"event": {"added": [], "removed": [folder]}})
+        client.settle()
+        self.assertEqual(self.messages(client, other / "bad.yaml"), [])
+
+    def test_random_edits_end_as_a_fresh_lint(self):
+        draw = random.Random(5)
+        client = self.start()
+        texts = {path: path.read_text() for path in (self.robot, self.mission, self.properties)}
+        for path in texts:
+            client.open(path)
+        pieces = ["\n", "- ", "{", "}", "[", "]", ": ", "\"", "'", "#", "task", "DRIVE", "é\U0001F422", "\t", "  ", "x"]
+        for version in range(2, int(os.environ.get("CBC_LSP_EDITS", "300"))):
+            path = draw.choice(list(texts))
+            text = texts[path]
+            begin = draw.randrange(len(text) + 1)
+            end = min(len(text), begin + draw.choice([0, 0, 1, 5, 40]))
+            piece = draw.choice(pieces)
+            units = lambda part: len(part.encode("utf-16-le")) // 2
+            place = lambda at: {"line": text.count("\n", 0, at),
+                                "character": units(text[text.rfind("\n", 0, at) + 1:at])}
+            client.change(path, version, {"range": {"start": place(begin), "end": place(end)}, "text": piece})
+            texts[path] = text[:begin] + piece + text[end:]
+            if draw.random() < 0.2:
+                method = draw.choice(["hover", "completion", "definition", "documentHighlight", "references"])
+                client.at(method, path, draw.randrange(12), draw.randrange(30), context={"includeDeclaration": True})
+            if draw.random() < 0.1:
+                client.of(draw.choice(["documentSymbol", "foldingRange"]), path)
+                client.of(draw.choice(["codeAction", "inlayHint"]), path, range=span(0, 0, 99, 0), context={})
+            if draw.random() < 0.02:
+                texts[path] = {self.robot: ROBOT, self.mission: MISSION, self.properties: PROPERTIES}[path]
+                client.change(path, version, {"text": texts[path]})
+        for path, text in texts.items():
+            path.write_bytes(text.encode())
+            client.close(path)
+        self.check_equal(client, self.folder)
+
+
+class Names(LspTest):
+    def place_of(self, text, words, behind):
+        offset = text.index(words) + words.index(behind)
+        return text.count("\n", 0, offset), offset - text.rfind("\n", 0, offset) - 1
+
+    def test_definitions(self):
+        client = self.start()
+        task = self.place_of(ROBOT, "- {task: DRIVE}", "DRIVE")
+        behavior = self.place_of(ROBOT, "behavior: LIDAR", "LIDAR")
+        variable = self.place_of(ROBOT, "variable: AIR", "AIR")
+        for path, text, words, behind, place in (
+                (self.robot, ROBOT, "task: DRIVE, suitability: 90", "DRIVE", task),
+                (self.robot, ROBOT, "requires: [{task: LOCALIZE", "LOCALIZE",
+                 self.place_of(ROBOT, "- {task: LOCALIZE", "LOCALIZE")),
+                (self.mission, MISSION, "start: DRIVE", "DRIVE", task),
+                (self.mission, MISSION, "LIDAR]", "LIDAR", behavior),
+                (self.mission, MISSION, "{AIR: dusty", "AIR", variable),
+                (self.properties, PROPERTIES, "can_start: DRIVE", "DRIVE", task)):
+            found = client.at("definition", path, *self.place_of(text, words, behind))
+            self.assertEqual((found["uri"], found["range"]["start"]),
+                             (uri_of(self.robot), {"line": place[0], "character": place[1]}), words)
+        self.assertEqual(client.at("definition", self.mission, 0, 12)["uri"], uri_of(self.robot))
+        self.assertIsNone(client.at("definition", self.mission, 1, 2))
+
+    def test_references(self):
+        client = self.start()
+        found = client.at("references", self.mission, *self.place_of(MISSION, "start: DRIVE", "DRIVE"),
+                          context={"includeDeclaration": True})
+        counts = {path: sum(item["uri"] == uri_of(path) for item in found)
+                  for path in (self.robot, self.mission, self.properties)}
+        self.assertEqual(counts, {self.robot: 3, self.mission: 2, self.properties: 1})
+        fewer = client.at("references", self.mission, *self.place_of(MISSION, "start: DRIVE", "DRIVE"),
+                          context={"includeDeclaration": False})
+        self.assertEqual(len(fewer), len(found) - 1)
+
+    def apply(self, text, edits):
+        lines = text.splitlines(keepends=True)
+        offset = lambda place: sum(map(len, lines[:place["line"]])) + place["character"]
+        for edit in sorted(edits, key=lambda edit: -offset(edit["range"]["start"])):
+            begin, end = offset(edit["range"]["start"]), offset(edit["range"]["end"])
+            text = text[:begin] + edit["newText"] + text[end:]
+        return text
+
+    def test_rename_does_what_the_command_does(self):
+        self.write(".cbc.yaml", SETTINGS)
+        client = self.start()
+        client.open(self.mission, version=3)
+        for kind, old, new, path, text, words in (
+                ("task", "DRIVE", "GO", self.mission, MISSION, "start: DRIVE"),
+                ("behavior", "LIDAR", "a: b", self.mission, MISSION, "LIDAR]"),
+                ("variable", "AIR", "DUST", self.robot, ROBOT, "variable: AIR")):
+            place = self.place_of(text, words, old)
+            self.assertEqual(client.at("prepareRename", path, *place)["placeholder"], old)
+            changes = client.at("rename", path, *place, newName=new)["documentChanges"]
+            folder = pathlib.Path(tempfile.mkdtemp())
+            shutil.copytree(self.folder, folder / "copy")
+            status, _, said = run_cbc("rename", kind, old, new, folder / "copy")
+            self.assertEqual(status, 0, said)
+            changed = {change["textDocument"]["uri"]: change for change in changes}
+            for name in ("robot.yaml", "mission.yaml", "robot.properties.yaml", ".cbc.yaml"):
+                before = (self.folder / name).read_text()
+                edits = changed.get(uri_of(self.folder / name), {"edits": []})["edits"]
+                self.assertEqual(self.apply(before, edits), (folder / "copy" / name).read_text(), name)
+            shutil.rmtree(folder)
+            mission = changed.get(uri_of(self.mission))
+            if mission:
+                self.assertEqual(mission["textDocument"]["version"], 3)
+
+    def test_names_that_nothing_can_get(self):
+        client = self.start()
+        place = self.place_of(MISSION, "start: DRIVE", "DRIVE")
+        for new, reason in (("", "empty"), ("LOCALIZE", "already"), ("DRIVE", "old name"), ("a\n", "printable")):
+            answer = client.try_ask("textDocument/rename", {
+                "textDocument": {"uri": uri_of(self.mission)}, "newName": new,
+                "position": {"line": place[0], "character": place[1]}})
+            self.assertIn(reason, answer["error"]["message"])
+        client.open(self.properties, "catalog: robot.yaml\nproperties: [{can_start: DRIVE\n")
+        answer = client.try_ask("textDocument/rename", {
+            "textDocument": {"uri": uri_of(self.mission)}, "newName": "GO",
+            "position": {"line": place[0], "character": place[1]}})
+        self.assertIn("not valid YAML", answer["error"]["message"])
+
+
+class HalfWritten(LspTest):
+    def labels(self, client, path, text, version):
+        """What is offered at the end of the text."""
+        client.change(path, version, {"text": text})
+        line = text.count("\n")
+        found = client.at("completion", path, line, len(text) - text.rfind("\n") - 1)
+        return {item["label"]: item for item in found["items"]}
+
+    def test_completion_and_hover(self):
+        client = self.start()
+        client.open(self.mission)
+        offered = self.labels(client, self.mission, MISSION + "- start: DR", 2)
+        self.assertEqual(offered["DRIVE"]["textEdit"], {"range": span(6, 9, 6, 11), "newText": "DRIVE"})
+        self.assertNotIn("LIDAR", offered)
+        self.assertIn("dusty", self.labels(client, self.mission, MISSION + "- situation: {AIR: ", 3))
+        self.assertIn("LIDAR", self.labels(client, self.mission, MISSION + "- fault: ", 4))
+        offered = self.labels(client, self.mission, MISSION + "- start: DRIVE\n  ", 5)
+        self.assertIn("priority", offered)
+        self.assertNotIn("start", offered)
+        said = client.at("hover", self.mission, 2, 10)
+        self.assertIn("DRIVE_FAST", said["contents"]["value"])
+        self.assertEqual(said["range"], span(2, 9, 2, 14))
+        # The same while the catalog itself does not parse.
+        client.open(self.robot, ROBOT + "- {task: [", 1)
+        self.assertIn("DRIVE_FAST", client.at("hover", self.mission, 2, 10)["contents"]["value"])
+        self.assertIn("DRIVE", self.labels(client, self.robot, ROBOT.replace("tasks:", "- {behavior: X, task: "), 2)
+                      | self.labels(client, self.robot, ROBOT[:ROBOT.index("tasks:")] + "- {behavior: X, task: ", 3))
+
+    def test_hover_explains_the_rule(self):
+        client = self.start()
+        client.open(self.robot, ROBOT.replace("task: LOCALIZE}]", "task: LOCALISE}]"))
+        client.settle()
+        line, column = Names.place_of(self, ROBOT, "requires: [{task: LOCALIZE", "LOCALIZE")
+        self.assertIn("undefined-task", client.at("hover", self.robot, line, column + 1)["contents"]["value"])
+
+    def test_prefixes(self):
+        """As if somebody wrote them: each prefix has findings, and answers at its end. In a night all of them."""
+        step = 1 if os.environ.get("CBC_NIGHT") else 211
+        for source in sorted(SOURCE.glob("catalogs/*.yaml")):
+            text = source.read_text()
+            path = self.write(source.name, "")
+            with Client(self.folder) as client:
+                client.open(path, "")
+                for version, end in enumerate(range(0, len(text), step), 2):
+                    self.labels(client, path, text[:end], version)
+                    client.of("documentSymbol", path)
+                client.change(path, 10**6, {"text": text})
+                client.settle()
+                self.assertEqual(self.messages(client, path), [])
+            path.unlink()
+
+
+class WholeFiles(LspTest):
+    def test_symbols(self):
+        client = self.start()
+        found = {symbol["name"]: [child["name"] for child in symbol["children"]]
+                 for symbol in client.of("documentSymbol", self.robot)}
+        self.assertEqual(found, {"situation": ["AIR"], "behaviors": ["DRIVE_FAST", "DRIVE_SLOWLY", "LIDAR"],
+                                 "tasks": ["DRIVE", "LOCALIZE"]})
+        events = client.of("documentSymbol", self.mission)[1]["children"]
+        self.assertEqual(events[0]["name"], "start: DRIVE")
+
+    def test_folds(self):
+        client = self.start()
+        folds = [(fold["startLine"], fold["endLine"]) for fold in client.of("foldingRange", self.robot)]
+        self.assertEqual(sorted(folds), [(0, 1), (2, 5), (6, 8)])
+
+    def test_hints(self):
+        client = self.start()
+        hints = client.of("inlayHint", self.mission, range=span(0, 0, 99, 0))
+        labels = [(hint["position"]["line"], hint["label"]) for hint in hints]
+        self.assertEqual([line for line, _ in labels], [2, 3, 4, 5])
+        self.assertEqual(labels[0][1], "+LIDAR +DRIVE_FAST")
+        self.assertEqual(labels[1][1], "✓")
+        self.assertTrue(labels[3][1].startswith("✗"))
+
+    def test_fixes(self):
+        client = self.start()
+        text = ROBOT.replace("requires: [{task: LOCALIZE}]", "requires: [{task: LOCALISE}]")
+        client.open(self.robot, text)
+        client.settle()
+        (found,) = client.findings[str(self.robot)]
+        fixes = client.of("codeAction", self.robot, range=found["range"], context={"diagnostics": [found]})
+        titles = [fix["title"] for fix in fixes]
+        self.assertIn("Change to 'LOCALIZE'", titles)
+        fix = fixes[titles.index("Change to 'LOCALIZE'")]["edit"]["changes"][uri_of(self.robot)]
+        self.assertEqual(Names.apply(self, text, fix), ROBOT)
+
+    def test_allowing(self):
+        client = self.start()
+        text = ROBOT.replace("- {task: LOCALIZE", "- {task: EXTRA}\n- {task: LOCALIZE")
+        for version in (1, 2, 3, 4):
+            client.open(self.robot, text, version)
+            client.settle()
+            found = client.findings[str(self.robot)]
+            if not found:
+                break
+            fixes = client.of("codeAction", self.robot, range=found[0]["range"], context={"diagnostics": []})
+            fix = next(fix for fix in fixes if fix["title"].startswith("Allow"))
+            text = Names.apply(self, text, fix["edit"]["changes"][uri_of(self.robot)])
+        self.assertEqual(found, [])
+        self.assertIn("# cbc: allow ", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
