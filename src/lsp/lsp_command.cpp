@@ -10,7 +10,7 @@ namespace cbc::cli {
 namespace {
 
 constexpr const char* lsp_examples =
-    "  cbc lsp          started by an editor, which talks to it on standard input and output\n";
+    "  cbc lsp     started by an editor, which talks to it on its input and output\n";
 
 constexpr const char* lsp_footer =
     "An editor shows the findings of 'cbc lint' while you type, completes and explains names and "
@@ -32,7 +32,7 @@ int serve() {
 
 void add_lsp_command(Program& program) {
   Command& command = program.add_command("lsp", "Serves editors by the Language Server Protocol.",
-                                         {{""}, lsp_examples, lsp_footer});
+                                         {{"[OPTION...]"}, lsp_examples, lsp_footer});
   command.add_confinement();
   command.action([] { return serve(); });
 }

@@ -12,7 +12,7 @@
 #include "core/check/check.h"
 #include "core/files/file_search.h"
 #include "core/files/file_set.h"
-#include "rename/engine/renaming.h"
+#include "core/catalog/renaming.h"
 
 namespace cbc::cli {
 

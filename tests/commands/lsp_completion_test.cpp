@@ -309,29 +309,29 @@ std::string hover(const std::string& marked, FileKind kind,
 TEST(LspHover, OfNames) {
   EXPECT_EQ(hover("- start: F|LY", script_kind),
             "task **FLY**\n\n"
-            "- performed by: FLY\\_FAST \\(90 %\\), FLY\\_SLOWLY \\(60 %\\)\n"
+            "- performed by: FLY_FAST (90 %), FLY_SLOWLY (60 %)\n"
             "- excludes: LAND\n"
             "- timeout: 30 s\n"
             "- minimum performance: 20 %\n"
             "- parameters: speed \\[0, 30\\], side \\[left, right\\], hard boolean\n");
   EXPECT_EQ(hover("tasks:\n- task: |SEE", catalog_kind),
             "task **SEE**\n\n"
-            "- performed by: LOOK \\(100 %\\)\n"
-            "- required by: FLY\\_FAST \\(at least 50 %\\)\n"
+            "- performed by: LOOK (100 %)\n"
+            "- required by: FLY_FAST (at least 50 %)\n"
             "- also starts when a behavior requires it\n"
             "- keeps running\n");
   EXPECT_EQ(hover("- fault: FLY_FAST|", script_kind),
-            "behavior **FLY\\_FAST**\n\n"
-            "- performs: FLY \\(90 %\\)\n"
-            "- requires: SEE \\(at least 50 %\\)\n"
-            "- fits in: LIGHT\\: day, dusk, not WIND\n"
-            "- timeout: 4\\.5 s\n"
+            "behavior **FLY_FAST**\n\n"
+            "- performs: FLY (90 %)\n"
+            "- requires: SEE (at least 50 %)\n"
+            "- fits in: LIGHT: day, dusk, not WIND\n"
+            "- timeout: 4.5 s\n"
             "- package: wings\n");
   EXPECT_EQ(hover("situation: {L|IGHT: day}", script_kind),
             "situation variable **LIGHT**\n\n"
             "- values: day, dusk, night\n"
             "- at first: day\n"
-            "- behaviors that depend on it: FLY\\_FAST \\(LIGHT\\: day, dusk\\)\n");
+            "- behaviors that depend on it: FLY_FAST (LIGHT: day, dusk)\n");
   EXPECT_EQ(hover("situation: {LIGHT: d|ay}", script_kind),
             hover("situation: {L|IGHT: day}", script_kind));
   EXPECT_EQ(hover("- start: F|L", script_kind), "the catalog has no task FL\n");

@@ -1,6 +1,6 @@
 // How names stand in texts, and what becomes of them. That all places are found, and no others, is
 // tested by rename_property_test.cpp.
-#include "rename/engine/renaming.h"
+#include "core/catalog/renaming.h"
 
 #include <string>
 #include <string_view>

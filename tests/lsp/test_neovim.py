@@ -25,7 +25,7 @@ print(vim.diagnostic.get(0)[1].message)
 -- The name that is required, where it is defined.
 vim.fn.search("LOCALIZE")
 vim.lsp.buf.definition()
-wait("definition", function() return vim.fn.line(".") == 4 end)
+wait("definition", function() return vim.fn.line(".") == 5 end)
 -- Another name, in all files.
 vim.lsp.buf.rename("FIND_PLACE")
 wait("rename", function() return vim.fn.getline(2):find("FIND_PLACE") end)
@@ -41,6 +41,7 @@ vim.cmd("qall")
 ROBOT = """\
 behaviors:
 - {behavior: DRIVE, task: DRIVE, suitability: 120, requires: [{task: LOCALIZE}]}
+- {behavior: LIDAR, task: LOCALIZE}
 tasks:
 - {task: LOCALIZE, start_on_request: false}
 - {task: DRIVE}

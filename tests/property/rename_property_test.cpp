@@ -18,7 +18,7 @@
 #include "generator.h"
 #include "random_cases.h"
 #include "rename/engine/proof.h"
-#include "rename/engine/renaming.h"
+#include "core/catalog/renaming.h"
 #include "subject.h"
 #include "support/renamed.h"
 #include "yaml_text.h"

@@ -6,7 +6,7 @@
 #include "lsp/features/features.h"
 #include "lsp/language/context.h"
 #include "lsp/language/places.h"
-#include "rename/engine/renaming.h"
+#include "core/catalog/renaming.h"
 #include "runtime/base/text.h"
 
 namespace cbc::lsp {

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "core/catalog/name_place.h"
-#include "rename/engine/renaming.h"
+#include "core/catalog/renaming.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "verify/engine/same_as.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
-#include "rename/engine/renaming.h"
+#include "core/catalog/renaming.h"
 #include "verify/engine/same_as.h"
 
 namespace cbc::cli {

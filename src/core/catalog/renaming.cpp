@@ -6,7 +6,7 @@
 // To search the text for the word would need a second account of where the language has names. To
 // change the tree and to write it anew would lose comments and layout.
 
-#include "rename/engine/renaming.h"
+#include "core/catalog/renaming.h"
 
 #include <algorithm>
 #include <map>
