@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/catalog/name_place.h"
+#include "core/catalog/renaming.h"
 #include "core/check/check.h"
 #include "core/files/file_search.h"
 #include "core/files/file_set.h"
-#include "core/catalog/renaming.h"
 
 namespace cbc::cli {
 

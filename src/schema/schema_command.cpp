@@ -71,9 +71,8 @@ int print_schema(const std::string& name) {
 
 void add_schema_command(Program& program) {
   const auto name = std::make_shared<std::optional<std::string>>();
-  Command& command =
-      program.add_command("schema", "Prints the JSON Schema of a file of cbc.",
-                          {{"[NAME]"}, schema_examples, schema_footer});
+  Command& command = program.add_command("schema", "Prints the JSON Schema of a file of cbc.",
+                                         {{"[NAME]"}, schema_examples, schema_footer});
   Values names;
   names.expected = "a schema";
   names.names = [] {

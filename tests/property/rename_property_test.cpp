@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/catalog/reader.h"
+#include "core/catalog/renaming.h"
 #include "core/compile/compile.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/script/reader.h"
@@ -18,7 +19,6 @@
 #include "generator.h"
 #include "random_cases.h"
 #include "rename/engine/proof.h"
-#include "core/catalog/renaming.h"
 #include "subject.h"
 #include "support/renamed.h"
 #include "yaml_text.h"

@@ -2,11 +2,11 @@
 #include <map>
 #include <utility>
 
+#include "core/catalog/renaming.h"
 #include "core/check/controls.h"
 #include "lsp/features/features.h"
 #include "lsp/language/context.h"
 #include "lsp/language/places.h"
-#include "core/catalog/renaming.h"
 #include "runtime/base/text.h"
 
 namespace cbc::lsp {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnostic/diagnostic.h"
 #include "core/catalog/renaming.h"
+#include "core/diagnostic/diagnostic.h"
 #include "verify/engine/same_as.h"
 
 namespace cbc::cli {
