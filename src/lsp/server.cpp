@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <sstream>
 #include <thread>
 #include <utility>
 
 #include "cbc/version.h"
+#include "core/support/wording.h"
 #include "lsp/language/completion.h"
 #include "lsp/language/context.h"
 #include "lsp/language/hover.h"
@@ -23,6 +25,10 @@ constexpr int invalid_params = -32602;
 constexpr int not_initialized = -32002;
 constexpr int request_cancelled = -32800;
 constexpr int request_failed = -32803;
+
+// MessageType of the protocol.
+constexpr int error = 1;
+constexpr int info = 3;
 
 /// How long nobody types before findings are found.
 constexpr auto pause_of_typing = std::chrono::milliseconds(100);
@@ -132,12 +138,12 @@ Server::Server(std::FILE* output) : output_(output) {
 
 int Server::run(std::FILE* input) {
   // It may wait for input that never comes, so it is left alone at the end.
-  std::thread([this, input] {
+  std::thread([inbox = inbox_, input] {
     while (auto message = read_message(input)) {
       Json parsed = Json::parse(*message, nullptr, false);
-      inbox_.put(std::move(parsed));
+      inbox->put(std::move(parsed));
     }
-    inbox_.put(End{});
+    inbox->put(End{});
   }).detach();
   while (!exit_status_) {
     const bool is_quiet = Clock::now() >= quiet_since_ + pause_of_typing;
@@ -145,11 +151,13 @@ int Server::run(std::FILE* input) {
     const Clock::time_point until = !has_news  ? Clock::now() + look_for_client
                                     : is_quiet ? Clock::now()
                                                : quiet_since_ + pause_of_typing;
-    if (auto item = inbox_.take(until)) {
+    if (auto item = inbox_->take(until)) {
       if (const auto* const message = std::get_if<Json>(&*item)) {
         take(*message);
       } else if (auto* const proved = std::get_if<Proved>(&*item)) {
         take_proofs(std::move(*proved));
+      } else if (const auto* const ran = std::get_if<Ran>(&*item)) {
+        show(*ran);
       } else {
         exit_status_ = was_shut_down_ ? 0 : 1;
       }
@@ -193,7 +201,7 @@ void Server::answer(const Json& id, const std::string& method, const Json& param
     return refuse(id, not_initialized, "expected 'initialize' first");
   }
   if (was_shut_down_) return refuse(id, invalid_request, "the server was shut down");
-  const bool is_cancelled = inbox_.has([&id](const Item& item) {
+  const bool is_cancelled = inbox_->has([&id](const Item& item) {
     const Json* const message = std::get_if<Json>(&item);
     const Json* const cancelled = message == nullptr ? nullptr : cancelled_by(*message);
     return cancelled != nullptr && *cancelled == id;
@@ -238,7 +246,7 @@ Json Server::initialize(const Json& params) {
   encoding_ = has_utf8 ? Encoding::utf8 : Encoding::utf16;
   workspace_ = std::make_unique<Workspace>(encoding_);
   proofs_ = std::make_unique<Proofs>([this](const Proofs::Job& job, CheckedCatalog proved) {
-    inbox_.put(Proved{job, std::move(proved)});
+    inbox_->put(Proved{job, std::move(proved)});
   });
   const Json process = find_member(params, {"processId"});
   if (process.is_number_integer()) client_process_ = process.get<long long>();
@@ -267,6 +275,8 @@ Json Server::initialize(const Json& params) {
       {"codeActionProvider", {{"codeActionKinds", {"quickfix"}}}},
       {"renameProvider", {{"prepareProvider", true}}},
       {"inlayHintProvider", true},
+      {"codeLensProvider", Json::object()},
+      {"executeCommandProvider", {{"commands", {"cbc.run"}}}},
       {"workspace", {{"workspaceFolders", {{"supported", true}, {"changeNotifications", true}}}}}};
   return {{"capabilities", std::move(capabilities)},
           {"serverInfo", {{"name", "cbc"}, {"version", std::string(version)}}}};
@@ -340,6 +350,14 @@ void Server::add_requests() {
   requests_["textDocument/foldingRange"] = [this](const Json& params) {
     const File* const file = file_of(params);
     return file == nullptr ? Json::array() : list_folds(*file);
+  };
+  requests_["textDocument/codeLens"] = [this](const Json& params) {
+    const File* const file = file_of(params);
+    return file == nullptr ? Json::array() : list_lenses(*file);
+  };
+  requests_["workspace/executeCommand"] = [this](const Json& params) {
+    run_command(params);
+    return Json();
   };
   const auto in_range = [this](const Json& params, const auto& list) {
     const File* const file = file_of(params);
@@ -432,6 +450,34 @@ void Server::change_text(const Json& params) {
   workspace_->set_text(*path, file->uri, document.at("version").get<std::int64_t>(),
                        std::move(text));
   quiet_since_ = Clock::now();
+}
+
+/// Runs this program on saved files, beside everything else.
+void Server::run_command(const Json& params) {
+  auto words = params.at("arguments").at(0).get<std::vector<std::string>>();
+  const bool is_known = !words.empty() && (words.front() == "solve" || words.front() == "verify");
+  if (params.at("command") != "cbc.run" || !is_known) throw Refusal("there is no such command");
+  std::thread([inbox = inbox_, words = std::move(words)]() mutable {
+    std::vector<std::string> line{"/proc/self/exe"};
+    line.insert(line.end(), words.begin(), words.end());
+    Filtered said = run_filter(line, "");
+    inbox->put(Ran{std::move(words), std::move(said)});
+  }).detach();
+}
+
+/// All of it in the log, and what it comes to as a message: the line of totals, or else the last
+/// one.
+void Server::show(const Ran& ran) {
+  const std::string& text = ran.said.output.empty() ? ran.said.error_output : ran.said.output;
+  std::string message = "cbc " + join(ran.words, " ");
+  notify("window/logMessage", {{"type", info}, {"message", message + "\n" + text}});
+  bool has_totals = false;
+  std::istringstream lines(text);
+  for (std::string line; !has_totals && std::getline(lines, line);) {
+    has_totals = line.starts_with("expectations: ") || line.starts_with("properties: ");
+    if (!line.empty()) message = line;
+  }
+  notify("window/showMessage", {{"type", ran.said.is_done ? info : error}, {"message", message}});
 }
 
 bool Server::work() {

@@ -9,7 +9,9 @@
 #include <set>
 #include <string>
 #include <variant>
+#include <vector>
 
+#include "core/support/system.h"
 #include "lsp/features/features.h"
 #include "lsp/inbox.h"
 #include "lsp/protocol/frames.h"
@@ -34,8 +36,13 @@ class Server {
     Proofs::Job job;
     CheckedCatalog catalog;
   };
+  /// What the program has said to a command line.
+  struct Ran {
+    std::vector<std::string> words;
+    Filtered said;
+  };
   struct End {};
-  using Item = std::variant<Json, Proved, End>;
+  using Item = std::variant<Json, Proved, Ran, End>;
   using Clock = std::chrono::steady_clock;
   using Answer = std::function<Json(const Json& params)>;
   using Take = std::function<void(const Json& params)>;
@@ -53,6 +60,8 @@ class Server {
   void begin();
   void change_text(const Json& params);
   void take_proofs(Proved proved);
+  void run_command(const Json& params);
+  void show(const Ran& ran);
   /// What is to be done while no message waits. Returns whether there was anything.
   [[nodiscard]] bool work();
   void publish(const File& file);
@@ -69,7 +78,8 @@ class Server {
                                const Use& use);
 
   MessageWriter output_;
-  Inbox<Item> inbox_;
+  std::shared_ptr<Inbox<Item>> inbox_ =
+      std::make_shared<Inbox<Item>>();  ///< threads may outlive this
   std::map<std::string, Answer> requests_;
   std::map<std::string, Take> notifications_;
   std::unique_ptr<Workspace> workspace_;  ///< null: not initialized

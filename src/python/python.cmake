@@ -15,7 +15,7 @@ set_target_properties(
              LIBRARY_OUTPUT_DIRECTORY "${python_build}/cbc_catalog"
              CXX_VISIBILITY_PRESET hidden
              VISIBILITY_INLINES_HIDDEN ON
-             UNITY_BUILD OFF)
+             UNITY_BUILD_BATCH_SIZE 5)
 target_include_directories(cbc_python PRIVATE src)
 target_link_libraries(cbc_python PRIVATE cbc_program ${fmt})
 # The symbols of the library are not for others that are loaded into the same process.

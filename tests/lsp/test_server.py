@@ -417,6 +417,26 @@ class WholeFiles(LspTest):
         self.assertEqual(labels[1][1], "✓")
         self.assertTrue(labels[3][1].startswith("✗"))
 
+    def test_lenses(self):
+        client = self.start()
+        lenses = client.of("codeLens", self.mission)
+        titles = [lens["command"]["title"] for lens in lenses]
+        self.assertEqual(titles, ["run: cbc solve mission.yaml", "why: cbc solve mission.yaml --why DRIVE_FAST",
+                                  "why: cbc solve mission.yaml --why DRIVE"])
+        for lens, part in ((lenses[0], "expectations: 1 passed, 1 failed"),
+                           (client.of("codeLens", self.properties)[0], "properties: 1 proved, 0 violated, 0 undecided")):
+            client.ask("workspace/executeCommand", {"command": lens["command"]["command"],
+                                                    "arguments": lens["command"]["arguments"]})
+            while client.receive().get("method") != "window/showMessage":
+                pass
+            log, message = client.requests[-2:]
+            words = lens["command"]["arguments"][0]
+            output = run_cbc(*words)[1]
+            self.assertEqual(log["params"]["message"].split("\n", 1)[1], output)
+            self.assertEqual(message["params"]["message"], part)
+        for wrong in ({"command": "rm", "arguments": [["solve"]]}, {"command": "cbc.run", "arguments": [["graph"]]}):
+            self.assertIn("error", client.try_ask("workspace/executeCommand", wrong))
+
     def test_fixes(self):
         client = self.start()
         text = ROBOT.replace("requires: [{task: LOCALIZE}]", "requires: [{task: LOCALISE}]")

@@ -64,6 +64,9 @@ struct NameAt {
 
 [[nodiscard]] Json list_symbols(const File& file);
 [[nodiscard]] Json list_folds(const File& file);
+/// What can be run on the command line about a file: its mission, the reason for what is expected,
+/// the proof of its properties. The command `cbc.run` runs the words of its argument.
+[[nodiscard]] Json list_lenses(const File& file);
 
 /// Quick fixes of the findings in a piece of a file.
 [[nodiscard]] Json list_fixes(const File& file, std::size_t begin, std::size_t end);
