@@ -363,16 +363,14 @@ void Server::add_requests() {
     const File* const file = file_of(params);
     if (file == nullptr) return Json(Json::array());
     const Json& range = params.at("range");
-    return list(*file, file->text->offset_of(place_of(range.at("start"))),
+    return list(*workspace_, *file, file->text->offset_of(place_of(range.at("start"))),
                 file->text->offset_of(place_of(range.at("end"))));
   };
   requests_["textDocument/codeAction"] = [in_range](const Json& params) {
     return in_range(params, &list_fixes);
   };
-  requests_["textDocument/inlayHint"] = [this, in_range](const Json& params) {
-    return in_range(params, [this](const File& file, std::size_t begin, std::size_t end) {
-      return list_hints(*workspace_, file, begin, end);
-    });
+  requests_["textDocument/inlayHint"] = [in_range](const Json& params) {
+    return in_range(params, &list_hints);
   };
 }
 

@@ -449,6 +449,28 @@ class WholeFiles(LspTest):
         fix = fixes[titles.index("Change to 'LOCALIZE'")]["edit"]["changes"][uri_of(self.robot)]
         self.assertEqual(Names.apply(self, text, fix), ROBOT)
 
+    def test_allowing_in_settings(self):
+        client = self.start()
+        text = ROBOT.replace("- {task: LOCALIZE", "- {task: EXTRA}\n- {task: LOCALIZE")
+        client.open(self.robot, text)
+        for version, before in enumerate((None, "", "strict: false", "allow: [never-started]\n",
+                                          "allow:\n  # why\n  - never-started\n"), 1):
+            if before is not None:
+                client.open(self.write(".cbc.yaml", before), before, version)
+            client.settle()
+            found = client.findings[str(self.robot)][0]
+            fixes = client.of("codeAction", self.robot, range=found["range"], context={"diagnostics": []})
+            fix = next(fix["edit"] for fix in fixes if fix["title"] == f"Allow {found['code']} in .cbc.yaml")
+            if before is None:
+                create, edit = fix["documentChanges"]
+                self.assertEqual((create["kind"], create["uri"]), ("create", uri_of(self.folder / ".cbc.yaml")))
+                after = Names.apply(self, "", edit["edits"])
+            else:
+                after = Names.apply(self, before, fix["changes"][uri_of(self.folder / ".cbc.yaml")])
+            self.write(".cbc.yaml", after)
+            self.assertNotIn(found["code"], run_cbc("lint", self.write("robot.yaml", text))[1], after)
+            (self.folder / ".cbc.yaml").unlink()
+
     def test_allowing(self):
         client = self.start()
         text = ROBOT.replace("- {task: LOCALIZE", "- {task: EXTRA}\n- {task: LOCALIZE")

@@ -69,7 +69,8 @@ struct NameAt {
 [[nodiscard]] Json list_lenses(const File& file);
 
 /// Quick fixes of the findings in a piece of a file.
-[[nodiscard]] Json list_fixes(const File& file, std::size_t begin, std::size_t end);
+[[nodiscard]] Json list_fixes(const Workspace& workspace, const File& file, std::size_t begin,
+                              std::size_t end);
 
 /// What each event of a mission does, and whether its expectations hold.
 [[nodiscard]] Json list_hints(const Workspace& workspace, const File& file, std::size_t begin,

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -8,14 +10,15 @@
 #include "core/check/controls.h"
 #include "core/yaml/source.h"
 #include "lsp/features/features.h"
+#include "lsp/protocol/uri.h"
 
 namespace cbc::lsp {
 namespace {
 
 class FixList {
  public:
-  FixList(const File& file, std::size_t begin, std::size_t end)
-      : file_(file), text_(file.text->content()) {
+  FixList(const Workspace& workspace, const File& file, std::size_t begin, std::size_t end)
+      : workspace_(workspace), file_(file), text_(file.text->content()) {
     for (const Diagnostic& finding : file.findings) {
       const std::size_t from = file.text->offset_of(finding.range.begin);
       const std::size_t to = file.text->offset_of(finding.range.end);
@@ -23,6 +26,7 @@ class FixList {
       add_fix(finding);
       add_suggestion(finding, from, to);
       add_allowance(finding, from);
+      add_setting(finding);
     }
   }
 
@@ -31,10 +35,15 @@ class FixList {
  private:
   void add(const std::string& title, const Diagnostic& finding, std::string_view changed,
            bool is_preferred) {
+    add_edit(title, finding, Json{{"changes", {{file_.uri, edits_json(file_, changed)}}}},
+             is_preferred);
+  }
+
+  void add_edit(const std::string& title, const Diagnostic& finding, Json edit, bool is_preferred) {
     Json fix = {{"title", title},
                 {"kind", "quickfix"},
                 {"isPreferred", is_preferred},
-                {"edit", {{"changes", {{file_.uri, edits_json(file_, changed)}}}}}};
+                {"edit", std::move(edit)}};
     fix["diagnostics"] = {{{"range", to_json(file_.text->range_of(finding.range))},
                            {"source", "cbc"},
                            {"code", finding.rule},
@@ -87,6 +96,55 @@ class FixList {
     add(fmt::format("Allow {} here, by a comment", finding.rule), finding, changed, false);
   }
 
+  /// One more rule in the settings that apply to the file, or in new ones at the top of its folder.
+  void add_setting(const Diagnostic& finding) {
+    if (is_fixed(finding) || file_.kind == cli::FileKind::settings) return;
+    const std::string title = fmt::format("Allow {} in {}", finding.rule, settings_file_name);
+    const std::string rule(finding.rule);
+    const std::optional<std::string> path = find_settings_file(file_.path);
+    const File* const settings = path ? workspace_.find(*path) : nullptr;
+    if (settings != nullptr && settings->text != nullptr) {
+      if (const auto changed = with_rule(*settings, rule)) {
+        add_edit(title, finding,
+                 Json{{"changes", {{settings->uri, edits_json(*settings, *changed)}}}}, false);
+      }
+    } else if (!path && !file_.folder.empty()) {
+      const std::string uri =
+          uri_of_path((std::filesystem::path(file_.folder) / settings_file_name).string());
+      Json edits = {
+          {{"range", to_json(PlaceRange{})}, {"newText", fmt::format("allow: [{}]\n", rule)}}};
+      Json changes = {
+          {{"kind", "create"}, {"uri", uri}, {"options", {{"ignoreIfExists", true}}}},
+          {{"textDocument", {{"uri", uri}, {"version", nullptr}}}, {"edits", std::move(edits)}}};
+      add_edit(title, finding, Json{{"documentChanges", std::move(changes)}}, false);
+    }
+  }
+
+  /// Settings that allow one more rule; empty if it is not clear how.
+  [[nodiscard]] static std::optional<std::string> with_rule(const File& settings,
+                                                            const std::string& rule) {
+    if (!settings.is_parsed || settings.input->document == nullptr) return std::nullopt;
+    const yaml::Node& root = settings.input->document->root();
+    std::string text = settings.text->content();
+    const yaml::Node* const allowed = root.find("allow");
+    if (allowed == nullptr) {
+      if (root.kind == yaml::Kind::mapping && !text.empty() &&
+          text[settings.text->offset_of(root.range.begin)] == '{') {
+        return std::nullopt;
+      }
+      if (!text.empty() && text.back() != '\n') text += '\n';
+      return text + fmt::format("allow: [{}]\n", rule);
+    }
+    if (allowed->kind != yaml::Kind::sequence || allowed->items.empty()) return std::nullopt;
+    const std::size_t list = settings.text->offset_of(allowed->range.begin);
+    const std::size_t first = settings.text->offset_of(allowed->items.front()->range.begin);
+    if (text[list] == '[') return text.insert(first, rule + ", ");
+    if (text[list] != '-') return std::nullopt;
+    const std::size_t begin = list == 0 ? 0 : text.rfind('\n', list) + 1;
+    return text.insert(begin, text.substr(begin, list - begin) + "- " + rule + "\n");
+  }
+
+  const Workspace& workspace_;
   const File& file_;
   const std::string_view text_;
   Json fixes_ = Json::array();
@@ -94,9 +152,9 @@ class FixList {
 
 }  // namespace
 
-Json list_fixes(const File& file, std::size_t begin, std::size_t end) {
+Json list_fixes(const Workspace& workspace, const File& file, std::size_t begin, std::size_t end) {
   if (file.text == nullptr) return Json::array();
-  return FixList(file, begin, end).release();
+  return FixList(workspace, file, begin, end).release();
 }
 
 }  // namespace cbc::lsp
