@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <sstream>
 #include <thread>
 #include <utility>
 
 #include "cbc/version.h"
+#include "core/files/read.h"
 #include "core/support/wording.h"
 #include "lsp/language/completion.h"
 #include "lsp/language/context.h"
@@ -50,7 +52,46 @@ Json find_member(const Json& value, std::initializer_list<const char*> names) {
 }
 
 Place place_of(const Json& position) {
-  return {position.at("line").get<std::uint32_t>(), position.at("character").get<std::uint32_t>()};
+  const auto number = [&position](const char* name) {
+    const Json& value = position.at(name);
+    if (!value.is_number_unsigned())
+      throw Json::type_error::create(302, "expected a count", &value);
+    return static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(value.get<std::uint64_t>(), UINT32_MAX));
+  };
+  return {number("line"), number("character")};
+}
+
+/// With U+FFFD for halves of characters, which a client sends while one is being typed.
+std::string without_halves(std::string text) {
+  const auto unit_at = [&text](std::size_t at) -> unsigned {
+    unsigned unit = 0;
+    const bool is_escape = at + 6 <= text.size() && text[at] == '\\' && text[at + 1] == 'u';
+    if (is_escape) std::from_chars(text.data() + at + 2, text.data() + at + 6, unit, 16);
+    return unit;
+  };
+  for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at)) {
+    const unsigned unit = unit_at(at);
+    const bool is_high = unit >= 0xD800 && unit < 0xDC00;
+    const unsigned next = is_high ? unit_at(at + 6) : 0;
+    if (is_high && next >= 0xDC00 && next < 0xE000) {
+      at += 12;
+    } else if (unit >= 0xD800 && unit < 0xE000) {
+      text.replace(at, 6, "\\ufffd");
+      at += 6;
+    } else {
+      at += 2;
+    }
+  }
+  return text;
+}
+
+/// Discarded if it is no JSON. What is nested deeper than any message is left out.
+Json parse(const std::string& message) {
+  constexpr int deepest = 64;
+  const auto is_kept = [](int depth, Json::parse_event_t, Json&) { return depth < deepest; };
+  Json parsed = Json::parse(message, is_kept, false);
+  return parsed.is_discarded() ? Json::parse(without_halves(message), is_kept, false) : parsed;
 }
 
 /// Which message an item of the inbox takes back, or null.
@@ -93,6 +134,11 @@ Json completions_at(const Cursor& cursor) {
   const std::size_t begin = std::min(context.begin, cursor.offset);
   const std::size_t end = std::max(context.end, cursor.offset);
   Json items = Json::array();
+  const std::string_view replaced = std::string_view(text).substr(begin, end - begin);
+  // The protocol wants one line.
+  if (replaced.find('\n') != std::string_view::npos)
+    return {{"isIncomplete", false}, {"items", items}};
+  const bool is_quoted = replaced.starts_with('"') || replaced.starts_with('\'');
   for (const Completion& found :
        complete(context, cursor.file.kind, known_catalog(cursor.workspace, cursor.file))) {
     Json item = {
@@ -101,6 +147,7 @@ Json completions_at(const Cursor& cursor) {
         {"insertTextFormat", found.is_snippet ? 2 : 1},
         {"textEdit",
          {{"range", range_json(*cursor.file.text, begin, end)}, {"newText", found.insert}}}};
+    if (is_quoted) item["filterText"] = std::string(replaced.substr(0, 1)) + found.label;
     if (!found.detail.empty()) item["detail"] = found.detail;
     if (!found.documentation.empty()) {
       item["documentation"] = found.documentation;
@@ -140,7 +187,7 @@ int Server::run(std::FILE* input) {
   // It may wait for input that never comes, so it is left alone at the end.
   std::thread([inbox = inbox_, input] {
     while (auto message = read_message(input)) {
-      Json parsed = Json::parse(*message, nullptr, false);
+      Json parsed = parse(*message);
       inbox->put(std::move(parsed));
     }
     inbox->put(End{});
@@ -177,6 +224,9 @@ bool Server::is_client_gone() const {
 void Server::take(const Json& message) {
   if (message.is_discarded()) return refuse(nullptr, parse_error, "expected JSON");
   const Json id = find_member(message, {"id"});
+  if (!id.is_null() && !id.is_string() && !id.is_number_integer()) {
+    return refuse(nullptr, invalid_request, "expected a number or a text as id");
+  }
   const Json method = find_member(message, {"method"});
   if (!method.is_string()) {
     const bool is_response =
@@ -264,7 +314,7 @@ Json Server::initialize(const Json& params) {
   }
   Json capabilities = {
       {"positionEncoding", has_utf8 ? "utf-8" : "utf-16"},
-      {"textDocumentSync", {{"openClose", true}, {"change", 2}, {"save", true}}},
+      {"textDocumentSync", {{"openClose", true}, {"change", 2}}},
       {"completionProvider", {{"triggerCharacters", {" ", "{", "[", ","}}}},
       {"hoverProvider", true},
       {"definitionProvider", true},
@@ -434,7 +484,7 @@ void Server::change_text(const Json& params) {
   if (file == nullptr || !file->version) return;
   std::string text = file->text->content();
   for (const Json& change : params.at("contentChanges")) {
-    if (!change.contains("range")) {
+    if (find_member(change, {"range"}).is_null()) {
       text = change.at("text").get<std::string>();
       continue;
     }
@@ -453,11 +503,20 @@ void Server::change_text(const Json& params) {
 /// Runs this program on saved files, beside everything else.
 void Server::run_command(const Json& params) {
   auto words = params.at("arguments").at(0).get<std::vector<std::string>>();
-  const bool is_known = !words.empty() && (words.front() == "solve" || words.front() == "verify");
+  const bool is_known = std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+    const File* const file = workspace_->find(word);
+    const Json lenses = file == nullptr ? Json::array() : list_lenses(*file);
+    return std::any_of(lenses.begin(), lenses.end(), [&words](const Json& lens) {
+      return lens.at("command").at("arguments").at(0) == words;
+    });
+  });
   if (params.at("command") != "cbc.run" || !is_known) throw Refusal("there is no such command");
   std::thread([inbox = inbox_, words = std::move(words)]() mutable {
     std::vector<std::string> line{"/proc/self/exe"};
     line.insert(line.end(), words.begin(), words.end());
+    if (const std::string folder = cli::confinement(); !folder.empty()) {
+      line.insert(line.end(), {"--confine", folder});
+    }
     Filtered said = run_filter(line, "");
     inbox->put(Ran{std::move(words), std::move(said)});
   }).detach();
@@ -492,15 +551,16 @@ bool Server::work() {
 void Server::prove_next() {
   const File* const file = workspace_->next_to_prove();
   if (file == nullptr) return proofs_->stop();
-  if (proofs_->present() == file->input) return;
+  if (proofs_->present() == file->check) return;
   const std::string path = file->path;
+  const std::uint64_t check = file->check;
   const auto settings = workspace_->settings_of(path);
-  if (settings) proofs_->begin({path, workspace_->find(path)->input, *settings});
+  if (settings) proofs_->begin({path, workspace_->find(path)->input, *settings, check});
 }
 
 void Server::take_proofs(Proved proved) {
   const File* const file =
-      workspace_->add_proofs(proved.job.path, *proved.job.input, std::move(proved.catalog));
+      workspace_->add_proofs(proved.job.path, proved.job.check, std::move(proved.catalog));
   if (file != nullptr) publish(*file);
   if (!workspace_->has_news()) prove_next();
 }

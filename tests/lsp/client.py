@@ -24,8 +24,8 @@ def path_of(uri):
 class Client:
     """Talks to a server. Findings that come are kept, by path."""
 
-    def __init__(self, *folders, capabilities=None, begin=True):
-        self.process = subprocess.Popen([PROGRAM, "lsp"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    def __init__(self, *folders, capabilities=None, begin=True, options=()):
+        self.process = subprocess.Popen([PROGRAM, "lsp", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self.inbox = queue.Queue()
         self.findings = {}
         self.versions = {}

@@ -83,6 +83,25 @@ class Protocol(LspTest):
         client.tell("exit", None)
         self.assertEqual(client.process.wait(PATIENCE), 0)
 
+    def test_what_no_client_should_send(self):
+        client = self.start()
+        deep = b'{"jsonrpc": "2.0", "id": ' + b"[" * 100000 + b"]" * 100000 + b', "method": "x"}'
+        client.write(b"Content-Length: %d\r\n\r\n" % len(deep) + deep)
+        self.assertEqual(client.answer(None)["error"]["code"], -32600)
+        for identity in (True, 1.5, {}, [1]):
+            client.send({"id": identity, "method": "shutdown"})
+            self.assertEqual(client.answer(None)["error"]["code"], -32600)
+        hover = {"textDocument": {"uri": uri_of(self.robot)}}
+        for place in ({"line": -1, "character": 0}, {"line": 1e300, "character": 0}, {"line": 0}):
+            answer = client.try_ask("textDocument/hover", {**hover, "position": place})
+            self.assertEqual(answer["error"]["code"], -32602, place)
+        client.ask("textDocument/hover", {**hover, "position": {"line": 2**64 - 1, "character": 2**40}})
+        # Half of a character, and a range that is null.
+        client.open(self.robot)
+        client.change(self.robot, 2, {"range": None, "text": ROBOT + "# \ud83d"})
+        client.change(self.robot, 3, {"range": span(9, 0, 9, 3), "text": "- {task: MORE}"})
+        self.assertEqual(client.of("documentSymbol", self.robot)[2]["children"][-1]["name"], "MORE")
+
     def test_requests_that_were_cancelled(self):
         client = self.start()
         client.send({"id": "a", "method": "textDocument/documentSymbol",
@@ -171,6 +190,32 @@ class Findings(LspTest):
         client.close(outside)
         client.settle()
         self.assertEqual(self.messages(client, outside), [])
+
+    def test_no_finding_is_of_another_version(self):
+        client = self.start()
+        client.open(self.robot)
+        client.settle()
+        client.change(self.robot, 2, {"text": "behaviors: 5\n"})
+        client.of("documentSymbol", self.robot)  # which looks for findings
+        client.change(self.robot, 3, {"text": ROBOT})
+        client.settle()
+        self.assertEqual((client.versions[str(self.robot)], self.messages(client, self.robot)), (3, []))
+
+    def test_folder_with_a_slash_at_its_end(self):
+        self.write("bad.yaml", "behaviors: 5\n")
+        with Client(str(self.folder) + "/") as client:
+            client.settle()
+            self.assertEqual(len(self.messages(client, self.folder / "bad.yaml")), 1)
+
+    def test_settings_that_are_half_written(self):
+        client = self.start()
+        settings = self.write(".cbc.yaml", SETTINGS)
+        client.open(settings)
+        client.settle()
+        before = self.messages(client, self.robot)
+        client.change(settings, 2, {"text": SETTINGS + "strict: tru"})
+        client.settle()
+        self.assertEqual((self.messages(client, self.robot), len(self.messages(client, settings))), (before, 1))
 
     def test_what_depends_on_a_catalog(self):
         client = self.start()
@@ -434,8 +479,21 @@ class WholeFiles(LspTest):
             output = run_cbc(*words)[1]
             self.assertEqual(log["params"]["message"].split("\n", 1)[1], output)
             self.assertEqual(message["params"]["message"], part)
-        for wrong in ({"command": "rm", "arguments": [["solve"]]}, {"command": "cbc.run", "arguments": [["graph"]]}):
+        words = lenses[0]["command"]["arguments"][0]
+        for wrong in ({"command": "cbc.run", "arguments": [words + ["--html", "page.html"]]}, {"command": "rm", "arguments": [["solve"]]}, {"command": "cbc.run", "arguments": [["graph"]]}):
             self.assertIn("error", client.try_ask("workspace/executeCommand", wrong))
+
+    def test_lenses_are_confined(self):
+        elsewhere = pathlib.Path(tempfile.mkdtemp()).resolve()
+        self.addCleanup(shutil.rmtree, elsewhere)
+        (elsewhere / "robot.yaml").write_text(ROBOT)
+        mission = self.write("other.yaml", MISSION.replace("robot.yaml", str(elsewhere / "robot.yaml")))
+        client = self.start(options=["--confine", str(self.folder)])
+        lens = client.of("codeLens", mission)[0]["command"]
+        client.ask("workspace/executeCommand", {"command": lens["command"], "arguments": lens["arguments"]})
+        while client.receive().get("method") != "window/showMessage":
+            pass
+        self.assertNotIn("DRIVE", client.requests[-2]["params"]["message"])
 
     def test_fixes(self):
         client = self.start()

@@ -68,10 +68,6 @@ bool may_be_plain(std::string_view name) {
   return !is_number && !yaml::to_boolean(node) && is_read_as(std::string(name), name);
 }
 
-std::string spell(std::string_view name) {
-  return may_be_plain(name) ? std::string(name) : yaml::in_quotes(name);
-}
-
 /// Whether a name stands between such quotes as it is.
 bool may_be_between(char quote, std::string_view name) {
   return name.find(quote) == std::string_view::npos &&
@@ -155,6 +151,10 @@ class Renamer {
 };
 
 }  // namespace
+
+std::string spell(std::string_view name) {
+  return may_be_plain(name) ? std::string(name) : yaml::in_quotes(name);
+}
 
 std::string fault_of_new_name(const Renaming& renaming) {
   const std::string& name = renaming.new_name;

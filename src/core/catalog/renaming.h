@@ -23,6 +23,9 @@ struct Renaming {
 /// Why nothing can get this name, for people; empty if something can.
 [[nodiscard]] std::string fault_of_new_name(const Renaming& renaming);
 
+/// A name as it stands in YAML: in quotes where it needs them.
+[[nodiscard]] std::string spell(std::string_view name);
+
 /// A text with the new name in place of the old one.
 struct RenamedText {
   std::string text;

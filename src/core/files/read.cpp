@@ -220,6 +220,8 @@ void confine_reading(const std::string& folder) {
   read_files().confinement = fs::canonical(folder);
 }
 
+std::string confinement() { return read_files().confinement.string(); }
+
 std::optional<std::string> find_refusal(const std::string& path) {
   if (path.find('\0') != std::string::npos) return "its name has a NUL character";
   const fs::path& folder = read_files().confinement;

@@ -56,6 +56,8 @@ void note_read(const std::string& path);
 /// Refuses from here on to read files outside of a folder, which must exist. For runs on files of
 /// others, which may name files, or be links to them.
 void confine_reading(const std::string& folder);
+/// That folder; empty: there is none.
+[[nodiscard]] std::string confinement();
 
 /// Why a file must not be read, for people, or nothing: it is outside of that folder, or its name,
 /// as only another file can give it, has a NUL character, which ends it for the system. Links and

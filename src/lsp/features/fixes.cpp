@@ -6,8 +6,10 @@
 
 #include <fmt/core.h>
 
+#include "core/catalog/renaming.h"
 #include "core/check/check.h"
 #include "core/check/controls.h"
+#include "core/diagnostic/rules.h"
 #include "core/yaml/source.h"
 #include "lsp/features/features.h"
 #include "lsp/protocol/uri.h"
@@ -67,18 +69,41 @@ class FixList {
     const std::size_t begin = found + question.size();
     const std::size_t end = finding.message.find("'?", begin);
     if (end == std::string::npos) return;
+    if (!stands_on_one_line(finding)) return;
     const std::string meant = finding.message.substr(begin, end - begin);
-    const std::string_view written = text_.substr(from, to - from);
-    const bool is_quoted = !written.empty() && (written.front() == '"' || written.front() == '\'');
+    const bool is_quoted = text_[from] == '"' || text_[from] == '\'';
     std::string changed(text_.substr(0, from));
-    changed += is_quoted ? yaml::in_quotes(meant) : meant;
+    changed += is_quoted ? yaml::in_quotes(meant) : spell(meant);
     changed += text_.substr(to);
     add(fmt::format("Change to '{}'", meant), finding, changed, true);
   }
 
+  /// Whether the finding is about a scalar that is written as a whole where the finding is.
+  [[nodiscard]] bool stands_on_one_line(const Diagnostic& finding) const {
+    if (file_.input->document == nullptr) return false;
+    const std::size_t from = file_.text->offset_of(finding.range.begin);
+    const std::size_t to = file_.text->offset_of(finding.range.end);
+    std::string_view written = text_.substr(from, to - from);
+    if (written.size() >= 2 && (written.front() == '"' || written.front() == '\'')) {
+      written = written.substr(1, written.size() - 2);
+    }
+    const auto& nodes = file_.input->document->nodes();
+    return std::any_of(nodes.begin(), nodes.end(), [&](const yaml::Node& node) {
+      return node.kind == yaml::Kind::scalar && node.range.begin == finding.range.begin &&
+             node.text == written;
+    });
+  }
+
+  /// Whether there can be comments.
+  [[nodiscard]] bool is_json() const {
+    const std::size_t begin = yaml::find_content(text_, 0);
+    return begin < text_.size() && (text_[begin] == '{' || text_[begin] == '[');
+  }
+
   /// A comment at the end of the line, or one more rule in the comment that is there.
   void add_allowance(const Diagnostic& finding, std::size_t from) {
-    if (is_fixed(finding) || file_.kind == cli::FileKind::settings) return;
+    if (is_fixed(finding) || file_.kind == cli::FileKind::settings || is_json()) return;
+    if (finding.rule == rule::unused_allow.name || !stands_on_one_line(finding)) return;
     std::size_t end = yaml::end_of_line(text_, from);
     if (end > from && text_[end - 1] == '\r') --end;
     const std::size_t begin = from == 0 ? 0 : text_.rfind('\n', from - 1) + 1;
@@ -126,6 +151,13 @@ class FixList {
     if (!settings.is_parsed || settings.input->document == nullptr) return std::nullopt;
     const yaml::Node& root = settings.input->document->root();
     std::string text = settings.text->content();
+    if (text.find("\n...") != std::string::npos) return std::nullopt;
+    for (const auto& [key, value] : root.entries) {
+      if (key->text == "allow" && value->kind == yaml::Kind::null) return std::nullopt;
+      for (const yaml::Node* const item : value->items) {
+        if (item->text == rule) return std::nullopt;  // the settings say something else of it
+      }
+    }
     const yaml::Node* const allowed = root.find("allow");
     if (allowed == nullptr) {
       if (root.kind == yaml::Kind::mapping && !text.empty() &&

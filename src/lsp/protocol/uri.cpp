@@ -30,7 +30,9 @@ std::optional<std::string> path_of_uri(std::string_view uri) {
     }
   }
   if (!path.starts_with('/')) return std::nullopt;
-  return std::filesystem::path(path).lexically_normal().string();
+  std::string normal = std::filesystem::path(path).lexically_normal().string();
+  if (normal.size() > 1 && normal.back() == '/') normal.pop_back();  // of a folder
+  return normal;
 }
 
 std::string uri_of_path(std::string_view path) {

@@ -18,9 +18,9 @@ Proofs::~Proofs() {
   thread_.join();
 }
 
-std::shared_ptr<const cli::InputFile> Proofs::present() const {
+std::uint64_t Proofs::present() const {
   const std::lock_guard lock(mutex_);
-  return next_ ? next_->input : present_;
+  return next_ ? next_->check : present_;
 }
 
 void Proofs::begin(Job job) {
@@ -47,7 +47,7 @@ void Proofs::run() {
       if (is_over_) return;
       job = std::move(*next_);
       next_.reset();
-      present_ = job.input;
+      present_ = job.check;
       is_stopped_ = false;
     }
     LintOptions options;
@@ -55,7 +55,7 @@ void Proofs::run() {
     CheckedCatalog proved = cli::check_catalog_file(*job.input, job.settings, options);
     {
       const std::lock_guard lock(mutex_);
-      present_ = nullptr;
+      present_ = 0;
       if (is_stopped_) continue;
     }
     done_(job, std::move(proved));

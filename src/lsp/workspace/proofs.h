@@ -23,6 +23,7 @@ class Proofs {
     std::string path;
     std::shared_ptr<const cli::InputFile> input;
     SeveritySettings settings;
+    std::uint64_t check = 0;  ///< see File
   };
   using Done = std::function<void(const Job& job, CheckedCatalog proved)>;
 
@@ -32,8 +33,8 @@ class Proofs {
   Proofs& operator=(const Proofs&) = delete;
   ~Proofs();
 
-  /// What is being proved, if anything; it may end at any time.
-  [[nodiscard]] std::shared_ptr<const cli::InputFile> present() const;
+  /// The check after which something is being proved, or 0; it may end at any time.
+  [[nodiscard]] std::uint64_t present() const;
   /// Begins with this one; the present one ends without an answer.
   void begin(Job job);
   void stop();
@@ -45,7 +46,7 @@ class Proofs {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<Job> next_;
-  std::shared_ptr<const cli::InputFile> present_;
+  std::uint64_t present_ = 0;
   std::atomic<bool> is_stopped_ = false;  ///< the present one
   bool is_over_ = false;
   std::thread thread_;

@@ -37,6 +37,15 @@ std::optional<FileKind> kind_of(const cli::InputFile& input) {
   return input.what.kind;
 }
 
+/// Whether it is in a folder that is passed over. Settings are hidden themselves.
+bool is_hidden(const std::string& path, const std::string& folder) {
+  if (folder.empty()) return false;
+  const fs::path below = fs::path(path).lexically_relative(folder);
+  return std::any_of(below.begin(), below.end(), [](const fs::path& part) {
+    return part.string().starts_with('.') && part != settings_file_name;
+  });
+}
+
 bool has_text(const std::string& path) {
   std::error_code ignored;
   return fs::is_regular_file(path, ignored) && !cli::can_be_mapped(path);
@@ -54,6 +63,7 @@ void Workspace::add_folder(const std::string& folder) {
     if (is_below(path, folder)) file.folder = find_folder(path);
   }
   mark_all_below(folder);
+  has_other_catalogs_ = true;
 }
 
 void Workspace::remove_folder(const std::string& folder) {
@@ -63,6 +73,7 @@ void Workspace::remove_folder(const std::string& folder) {
     file.folder = find_folder(path);
     mark(path);
   }
+  has_other_catalogs_ = true;
 }
 
 std::string Workspace::find_folder(const std::string& path) const {
@@ -77,6 +88,7 @@ std::string Workspace::find_folder(const std::string& path) const {
 void Workspace::load(File& file, std::string text) {
   file.text = std::make_shared<const Text>(std::move(text), encoding_);
   file.is_parsed = false;
+  checked_.erase(file.path);  // its findings are about another text
   if (file.input == nullptr) {
     parse(file);
   } else {
@@ -126,7 +138,14 @@ void Workspace::reread(const std::string& path) {
   if (found != files_.end() && found->second.version) return;  // the client has another text
   std::optional<std::string> text;
   if (has_text(path)) text = cli::read_input(path);
-  if (!text) return forget(path);
+  if (!text) {
+    // Of a folder that is gone, all files are.
+    for (const auto& [other, file] : files_) {
+      if (is_below(other, path) && !file.version && !has_text(other)) forget(other);
+    }
+    return forget(path);
+  }
+  if (found == files_.end() && is_hidden(path, find_folder(path))) return;
   File& file = entry(path);
   if (file.text == nullptr || file.text->content() != *text) load(file, std::move(*text));
 }
@@ -229,6 +248,7 @@ void Workspace::check_all() {
 void Workspace::check(File& file) {
   to_check_.erase(file.path);
   checked_.insert(file.path);
+  file.check = ++checks_;
   file.findings.clear();
   file.names.clear();
   file.has_all_findings = true;
@@ -333,6 +353,11 @@ std::optional<SeveritySettings> Workspace::settings_of(const std::string& path) 
   if (file == nullptr || file->text == nullptr) return SeveritySettings();
   Diagnostics ignored;  // they are findings of that file
   std::optional<SeveritySettings> read = read_settings(file->text->content(), *settings, ignored);
+  if (read) {
+    usable_settings_.insert_or_assign(*settings, *read);
+  } else if (const auto last = usable_settings_.find(*settings); last != usable_settings_.end()) {
+    read = last->second;  // somebody is writing it
+  }
   settings_.insert_or_assign(*settings, read);  // reading may have cleared them
   return read;
 }
@@ -347,10 +372,10 @@ const File* Workspace::next_to_prove() const {
   return best;
 }
 
-const File* Workspace::add_proofs(const std::string& path, const cli::InputFile& input,
+const File* Workspace::add_proofs(const std::string& path, std::uint64_t check,
                                   CheckedCatalog proved) {
   const auto found = files_.find(path);
-  if (found == files_.end() || found->second.input.get() != &input || to_check_.contains(path)) {
+  if (found == files_.end() || found->second.check != check || to_check_.contains(path)) {
     return nullptr;
   }
   File& file = found->second;

@@ -44,6 +44,7 @@ struct File {
   std::vector<NamePlace> names;                      ///< where names of the catalog stand
   std::vector<Diagnostic> findings;
   bool has_all_findings = false;  ///< also those that take a search
+  std::uint64_t check = 0;        ///< number of the last check, of all checks of all files
 
   [[nodiscard]] bool is_about_catalog() const {
     return kind == cli::FileKind::script || kind == cli::FileKind::properties;
@@ -82,8 +83,8 @@ class Workspace {
 
   /// The next catalog whose findings that take a search are missing; null: none.
   [[nodiscard]] const File* next_to_prove() const;
-  /// Adds these, found in `input`. Returns the file, or null if it has changed since.
-  [[nodiscard]] const File* add_proofs(const std::string& path, const cli::InputFile& input,
+  /// Adds these, found after `check`. Returns the file, or null if it was checked again since.
+  [[nodiscard]] const File* add_proofs(const std::string& path, std::uint64_t check,
                                        CheckedCatalog proved);
   /// The settings that apply to a file; empty if they cannot be used.
   [[nodiscard]] std::optional<SeveritySettings> settings_of(const std::string& path);
@@ -114,7 +115,9 @@ class Workspace {
   std::set<std::string> changed_catalogs_;
   bool has_other_catalogs_ = false;                      ///< a file became one, or is none any more
   std::map<std::string, cli::CatalogFolders> catalogs_;  ///< by folder of the workspace
+  std::uint64_t checks_ = 0;
   std::map<std::string, std::optional<SeveritySettings>> settings_;  ///< by settings file
+  std::map<std::string, SeveritySettings> usable_settings_;          ///< the last ones
 };
 
 }  // namespace cbc::lsp

@@ -91,7 +91,8 @@ Microseconds read_seconds(const py::handle& seconds, std::string_view what) {
   }
   const double value =
       number ? PyFloat_AS_DOUBLE(number.ptr()) : std::numeric_limits<double>::infinity();
-  const auto most = static_cast<double>(longest_time / second);
+  constexpr std::int64_t most_seconds = longest_time / second;
+  const auto most = static_cast<double>(most_seconds);
   if (!(value >= 0 && value <= most)) {
     raise("UsageError", concat(what, ": expected 0 to ", longest_time / second, " seconds, found ",
                                std::string(py::str(seconds))));
@@ -148,7 +149,7 @@ std::optional<Parameters> read_parameters(const CompiledCatalog& catalog, std::u
     throw;  // a TypeError that names the type
   }
   yaml::JsonReader reader;
-  const std::string json = py::cast<std::string>(text);
+  const auto json = py::cast<std::string>(text);
   const yaml::Node* const root = reader.read(json);
   if (root == nullptr) raise("UsageError", "parameters: " + reader.fault());
   Diagnostics diagnostics;

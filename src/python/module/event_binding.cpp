@@ -169,6 +169,7 @@ std::shared_ptr<const PythonEvent> make_event(std::vector<HandledEvent> events) 
 
 py::tuple make_events(std::vector<HandledEvent> events) {
   std::vector<EventHolder> made;
+  made.reserve(events.size());
   for (HandledEvent& event : events) {
     made.push_back(std::make_shared<const PythonEvent>(PythonEvent{std::move(event), {}, {}}));
   }

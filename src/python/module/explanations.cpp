@@ -33,17 +33,21 @@ class Repetition final : public EventListener {
   Repetition(const Moment& moment, const ExplanationOptions& explain, const IsStopped& is_stopped,
              Take take)
       : moment_(moment), take_(std::move(take)) {
-    CoordinatorOptions options = to_internal(moment.options, is_stopped);
-    options.find_conflicts = true;
-    options.explain = explain;
-    Coordinator coordinator(*moment.catalog->compiled, options, *this);
-    coordinator_ = &coordinator;
-    coordinator.resume(moment.before);
-    (void)make_call(coordinator, moment.call);  // it was ok the first time, or is stopped
-    coordinator_ = nullptr;
+    run(explain, is_stopped);
   }
 
  private:
+  void run(const ExplanationOptions& explain, const IsStopped& is_stopped) {
+    CoordinatorOptions options = to_internal(moment_.options, is_stopped);
+    options.find_conflicts = true;
+    options.explain = explain;
+    Coordinator coordinator(*moment_.catalog->compiled, options, *this);
+    coordinator_ = &coordinator;
+    coordinator.resume(moment_.before);
+    (void)make_call(coordinator, moment_.call);  // it was ok the first time, or is stopped
+    coordinator_ = nullptr;
+  }
+
   void on_event(const EventRecord& record) override {
     take_(record, moment_.step_of(record), coordinator_->state());
   }
