@@ -170,10 +170,14 @@ class FixList {
     if (allowed->kind != yaml::Kind::sequence || allowed->items.empty()) return std::nullopt;
     const std::size_t list = settings.text->offset_of(allowed->range.begin);
     const std::size_t first = settings.text->offset_of(allowed->items.front()->range.begin);
-    if (text[list] == '[') return text.insert(first, rule + ", ");
+    if (text[list] == '[') {
+      text.insert(first, rule + ", ");
+      return text;
+    }
     if (text[list] != '-') return std::nullopt;
     const std::size_t begin = list == 0 ? 0 : text.rfind('\n', list) + 1;
-    return text.insert(begin, text.substr(begin, list - begin) + "- " + rule + "\n");
+    text.insert(begin, text.substr(begin, list - begin) + "- " + rule + "\n");
+    return text;
   }
 
   const Workspace& workspace_;
