@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
@@ -227,24 +226,6 @@ std::string describe_end_of(const MissingMissions& missing, bool were_all_run, s
   return fmt::format(
       "{} {}", deadline.is_late() ? fmt::format("--time-limit {} ended it", limit) : "interrupted",
       place);
-}
-
-/// A path for a shell.
-std::string in_shell(const std::string& path) {
-  const bool is_plain = std::all_of(path.begin(), path.end(), [](char character) {
-    return std::isalnum(static_cast<unsigned char>(character)) != 0 ||
-           std::string_view("_./-+").find(character) != std::string_view::npos;
-  });
-  if (is_plain) return path;
-  std::string quoted = "'";
-  for (const char character : printable(path)) {
-    if (character == '\'') {
-      quoted += "'\\''";
-    } else {
-      quoted += character;
-    }
-  }
-  return quoted + "'";
 }
 
 /// Which command looks at what these scripts leave.

@@ -11,9 +11,6 @@
 #include "cbc/version.h"
 #include "core/files/read.h"
 #include "core/support/wording.h"
-#include "lsp/language/completion.h"
-#include "lsp/language/context.h"
-#include "lsp/language/hover.h"
 #include "lsp/protocol/uri.h"
 
 namespace cbc::lsp {
@@ -94,6 +91,11 @@ Json parse(const std::string& message) {
   return parsed.is_discarded() ? Json::parse(without_halves(message), is_kept, false) : parsed;
 }
 
+/// The path of the document that a message is about; empty if that is no file.
+std::optional<std::string> path_in(const Json& params) {
+  return path_of_uri(params.at("textDocument").at("uri").get_ref<const std::string&>());
+}
+
 /// Which message an item of the inbox takes back, or null.
 const Json* cancelled_by(const Json& message) {
   if (find_member(message, {"method"}) != "$/cancelRequest") return nullptr;
@@ -101,79 +103,6 @@ const Json* cancelled_by(const Json& message) {
   if (params == message.end() || !params->is_object()) return nullptr;
   const auto id = params->find("id");
   return id == params->end() ? nullptr : &*id;
-}
-
-const Catalog* known_catalog(const Workspace& workspace, const File& file) {
-  const File* const catalog = workspace.catalog_of(file);
-  return catalog != nullptr && catalog->last_names != nullptr ? &catalog->last_names->catalog
-                                                              : nullptr;
-}
-
-// CompletionItemKind of the protocol.
-int kind_number(Completion::Kind kind) {
-  switch (kind) {
-    case Completion::Kind::key:
-      return 10;
-    case Completion::Kind::task:
-      return 7;
-    case Completion::Kind::behavior:
-      return 3;
-    case Completion::Kind::variable:
-      return 6;
-    case Completion::Kind::value:
-      return 12;
-    case Completion::Kind::snippet:
-      break;
-  }
-  return 15;
-}
-
-Json completions_at(const Cursor& cursor) {
-  const std::string& text = cursor.file.text->content();
-  const Context context = context_at(text, cursor.offset);
-  const std::size_t begin = std::min(context.begin, cursor.offset);
-  const std::size_t end = std::max(context.end, cursor.offset);
-  Json items = Json::array();
-  const std::string_view replaced = std::string_view(text).substr(begin, end - begin);
-  // The protocol wants one line.
-  if (replaced.find('\n') != std::string_view::npos)
-    return {{"isIncomplete", false}, {"items", items}};
-  const bool is_quoted = replaced.starts_with('"') || replaced.starts_with('\'');
-  for (const Completion& found :
-       complete(context, cursor.file.kind, known_catalog(cursor.workspace, cursor.file))) {
-    Json item = {
-        {"label", found.label},
-        {"kind", kind_number(found.kind)},
-        {"insertTextFormat", found.is_snippet ? 2 : 1},
-        {"textEdit",
-         {{"range", range_json(*cursor.file.text, begin, end)}, {"newText", found.insert}}}};
-    if (is_quoted) item["filterText"] = std::string(replaced.substr(0, 1)) + found.label;
-    if (!found.detail.empty()) item["detail"] = found.detail;
-    if (!found.documentation.empty()) {
-      item["documentation"] = found.documentation;
-    }
-    items.push_back(std::move(item));
-  }
-  return {{"isIncomplete", false}, {"items", std::move(items)}};
-}
-
-Json hover_at(const Cursor& cursor) {
-  const Text& text = *cursor.file.text;
-  const Context context = context_at(text.content(), cursor.offset);
-  std::string said =
-      describe(context, cursor.file.kind, known_catalog(cursor.workspace, cursor.file));
-  for (const Diagnostic& finding : cursor.file.findings) {
-    if (!cursor.file.is_parsed) break;  // they are about an older text
-    const bool is_here = text.offset_of(finding.range.begin) <= cursor.offset &&
-                         cursor.offset <= text.offset_of(finding.range.end);
-    if (!is_here) continue;
-    if (!said.empty()) said += "\n\n---\n\n";
-    said += describe_rule(finding.rule);
-  }
-  if (said.empty()) return nullptr;
-  Json hover = {{"contents", {{"kind", "markdown"}, {"value", said}}}};
-  if (context.begin < context.end) hover["range"] = range_json(text, context.begin, context.end);
-  return hover;
 }
 
 }  // namespace
@@ -333,7 +262,7 @@ Json Server::initialize(const Json& params) {
 }
 
 const File* Server::file_of(const Json& params) {
-  const auto path = path_of_uri(params.at("textDocument").at("uri").get_ref<const std::string&>());
+  const auto path = path_in(params);
   if (!path || workspace_->find(*path) == nullptr) return nullptr;
   workspace_->check_now(*path);
   const File* const file = workspace_->find(*path);
@@ -341,10 +270,10 @@ const File* Server::file_of(const Json& params) {
 }
 
 const File* Server::text_of_request(const Json& params) {
-  const auto path = path_of_uri(params.at("textDocument").at("uri").get_ref<const std::string&>());
+  const auto path = path_in(params);
   const File* const file = path ? workspace_->find(*path) : nullptr;
   if (file == nullptr || file->text == nullptr) return nullptr;
-  return known_catalog(*workspace_, *file) == nullptr ? file_of(params) : file;
+  return workspace_->known_catalog(*file) == nullptr ? file_of(params) : file;
 }
 
 template <typename Use>
@@ -365,10 +294,10 @@ void Server::add_requests() {
     return Json();
   };
   requests_["textDocument/completion"] = [this](const Json& params) {
-    return at_cursor(params, text_of_request(params), Json::array(), &completions_at);
+    return at_cursor(params, text_of_request(params), Json::array(), &list_completions);
   };
   requests_["textDocument/hover"] = [this](const Json& params) {
-    return at_cursor(params, text_of_request(params), nullptr, &hover_at);
+    return at_cursor(params, text_of_request(params), nullptr, &find_hover);
   };
   requests_["textDocument/definition"] = [this](const Json& params) {
     return at_cursor(params, file_of(params), nullptr, &find_definition);
@@ -425,12 +354,9 @@ void Server::add_requests() {
 }
 
 void Server::add_notifications() {
-  const auto path_in = [](const Json& params) {
-    return path_of_uri(params.at("textDocument").at("uri").get_ref<const std::string&>());
-  };
   notifications_["exit"] = [this](const Json&) { exit_status_ = was_shut_down_ ? 0 : 1; };
   notifications_["initialized"] = [this](const Json&) { begin(); };
-  notifications_["textDocument/didOpen"] = [this, path_in](const Json& params) {
+  notifications_["textDocument/didOpen"] = [this](const Json& params) {
     const Json& document = params.at("textDocument");
     if (const auto path = path_in(params)) {
       workspace_->set_text(*path, document.at("uri").get<std::string>(),
@@ -439,7 +365,7 @@ void Server::add_notifications() {
     }
   };
   notifications_["textDocument/didChange"] = [this](const Json& params) { change_text(params); };
-  notifications_["textDocument/didClose"] = [this, path_in](const Json& params) {
+  notifications_["textDocument/didClose"] = [this](const Json& params) {
     const auto path = path_in(params);
     const File* const file = path ? workspace_->find(*path) : nullptr;
     if (file == nullptr) return;
@@ -479,7 +405,7 @@ void Server::begin() {
 
 void Server::change_text(const Json& params) {
   const Json& document = params.at("textDocument");
-  const auto path = path_of_uri(document.at("uri").get_ref<const std::string&>());
+  const auto path = path_in(params);
   const File* const file = path ? workspace_->find(*path) : nullptr;
   if (file == nullptr || !file->version) return;
   std::string text = file->text->content();
@@ -538,13 +464,10 @@ void Server::show(const Ran& ran) {
 }
 
 bool Server::work() {
-  if (workspace_ == nullptr) return false;
-  if (workspace_->has_news()) {
-    publish(workspace_->next_checked());
-    if (!workspace_->has_news()) prove_next();
-    return true;
-  }
-  return false;
+  if (workspace_ == nullptr || !workspace_->has_news()) return false;
+  publish(workspace_->next_checked());
+  if (!workspace_->has_news()) prove_next();
+  return true;
 }
 
 /// The next proofs, unless they are those that are being made.

@@ -18,33 +18,6 @@ std::string kind_in_words(NameKind kind) {
   return kind == NameKind::variable ? "situation variable" : std::string(name_of(kind));
 }
 
-/// The names of one kind that a catalog has, and where each first stands.
-std::vector<std::pair<std::string_view, Range>> names_in(const Catalog& catalog, NameKind kind) {
-  std::vector<std::pair<std::string_view, Range>> names;
-  const auto add = [&names](const auto& things) {
-    for (const auto& thing : things) names.emplace_back(thing.name, thing.range);
-  };
-  switch (kind) {
-    case NameKind::task:
-      add(catalog.tasks);
-      break;
-    case NameKind::behavior:
-      add(catalog.behaviors);
-      break;
-    case NameKind::variable:
-      add(catalog.variables);
-      break;
-  }
-  return names;
-}
-
-std::optional<Range> place_of(const Catalog& catalog, NameKind kind, std::string_view name) {
-  for (const auto& [known, range] : names_in(catalog, kind)) {
-    if (known == name) return range;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::optional<std::vector<NamedFile>> NamedFiles::load(const std::vector<std::string>& paths) {
@@ -170,7 +143,7 @@ void NamedFiles::take_about_catalog(const NamedFile& about, const std::string& f
 }
 
 bool NamedFiles::has_name(const NamedFile& catalog, const std::string& name) const {
-  return place_of(catalog.catalog->reading.catalog, renaming_.kind, name).has_value();
+  return place_of_name(catalog.catalog->reading.catalog, renaming_.kind, name).has_value();
 }
 
 /// Takes the catalogs that have the old name. None of them may have the new one.
@@ -193,9 +166,11 @@ void NamedFiles::report_missing() {
   std::string other;
   for (const auto& catalog : catalogs_) {
     const Catalog& read = catalog->catalog->reading.catalog;
-    for (const auto& [name, range] : names_in(read, renaming_.kind)) known.push_back(name);
+    visit_named(read, renaming_.kind, [&known](const auto& things) {
+      for (const auto& thing : things) known.push_back(thing.name);
+    });
     for (const NameKind kind : {NameKind::task, NameKind::behavior, NameKind::variable}) {
-      if (kind == renaming_.kind || !place_of(read, kind, renaming_.old_name)) continue;
+      if (kind == renaming_.kind || !place_of_name(read, kind, renaming_.old_name)) continue;
       other = ": it is a " + kind_in_words(kind);
     }
   }
@@ -212,7 +187,7 @@ void NamedFiles::report_taken(const NamedFile& catalog) {
   if (renaming_.kind == NameKind::behavior) kinds.push_back(NameKind::variable);
   if (renaming_.kind == NameKind::variable) kinds.push_back(NameKind::behavior);
   for (const NameKind kind : kinds) {
-    const auto range = place_of(catalog.catalog->reading.catalog, kind, renaming_.new_name);
+    const auto range = place_of_name(catalog.catalog->reading.catalog, kind, renaming_.new_name);
     if (!range) continue;
     complain("{}: there is a {} {} already",
              format_place(printable(catalog.file->name), range->begin), kind_in_words(kind),

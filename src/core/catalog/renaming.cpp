@@ -152,6 +152,15 @@ class Renamer {
 
 }  // namespace
 
+std::optional<Range> place_of_name(const Catalog& catalog, NameKind kind, std::string_view name) {
+  return visit_named(catalog, kind, [name](const auto& things) -> std::optional<Range> {
+    for (const auto& thing : things) {
+      if (thing.name == name) return thing.range;
+    }
+    return std::nullopt;
+  });
+}
+
 std::string spell(std::string_view name) {
   return may_be_plain(name) ? std::string(name) : yaml::in_quotes(name);
 }
@@ -206,22 +215,11 @@ bool differ_only_in_name(const NamedText& before, const NamedText& after,
 }
 
 Catalog with_new_name(Catalog catalog, const Renaming& renaming) {
-  const auto rename = [&renaming](auto& things) {
+  visit_named(catalog, renaming.kind, [&renaming](auto& things) {
     for (auto& thing : things) {
       if (thing.name == renaming.old_name) thing.name = renaming.new_name;
     }
-  };
-  switch (renaming.kind) {
-    case NameKind::task:
-      rename(catalog.tasks);
-      break;
-    case NameKind::behavior:
-      rename(catalog.behaviors);
-      break;
-    case NameKind::variable:
-      rename(catalog.variables);
-      break;
-  }
+  });
   return catalog;
 }
 

@@ -13,6 +13,25 @@
 
 namespace cbc {
 
+/// Calls `visit` with the tasks, behaviors or variables of a catalog, which all have name and
+/// range.
+template <typename AnyCatalog, typename Visit>
+auto visit_named(AnyCatalog& catalog, NameKind kind, const Visit& visit) {
+  switch (kind) {
+    case NameKind::behavior:
+      return visit(catalog.behaviors);
+    case NameKind::variable:
+      return visit(catalog.variables);
+    case NameKind::task:
+      break;
+  }
+  return visit(catalog.tasks);
+}
+
+/// Where a name first stands in a catalog; empty if it has none of this kind.
+[[nodiscard]] std::optional<Range> place_of_name(const Catalog& catalog, NameKind kind,
+                                                 std::string_view name);
+
 /// What gets another name.
 struct Renaming {
   NameKind kind = NameKind::task;

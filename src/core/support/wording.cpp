@@ -1,6 +1,7 @@
 #include "core/support/wording.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -312,6 +313,23 @@ std::string in_place_of(std::string_view now, std::string_view before) {
     return text.empty() ? "nothing" : printable(text);
   };
   return concat(name(now), " in place of ", name(before));
+}
+
+std::string in_shell(const std::string& word) {
+  const bool is_plain = std::all_of(word.begin(), word.end(), [](char character) {
+    return std::isalnum(static_cast<unsigned char>(character)) != 0 ||
+           std::string_view("_./-+").find(character) != std::string_view::npos;
+  });
+  if (is_plain && !word.empty()) return word;
+  std::string quoted = "'";
+  for (const char character : printable(word)) {
+    if (character == '\'') {
+      quoted += "'\\''";
+    } else {
+      quoted += character;
+    }
+  }
+  return quoted + "'";
 }
 
 std::string percent_encode(std::string_view path) {

@@ -85,6 +85,9 @@ template <typename Things, typename ToText = std::identity>
 /// "LIDAR in place of GPS": what there is now, and what there was. Empty: "nothing".
 [[nodiscard]] std::string in_place_of(std::string_view now, std::string_view before);
 
+/// A word of a command line, in quotes where a shell would not take it as it is.
+[[nodiscard]] std::string in_shell(const std::string& word);
+
 /// The path of a URI (RFC 3986) for the path of a file: every byte but letters, digits, "-._~" and
 /// "/" is percent-encoded.
 [[nodiscard]] std::string percent_encode(std::string_view path);

@@ -41,6 +41,12 @@ struct Refusal : std::runtime_error {
 [[nodiscard]] Json edits_json(const File& file, std::string_view changed);
 [[nodiscard]] Json diagnostics_json(const Workspace& workspace, const File& file);
 
+// What may be written at a place, and what stands there means: of the text alone, with the names
+// that the catalog had last.
+
+[[nodiscard]] Json list_completions(const Cursor& cursor);
+[[nodiscard]] Json find_hover(const Cursor& cursor);
+
 // Names.
 
 /// A name of a catalog where it stands in a file.

@@ -14,16 +14,6 @@ using Words = std::vector<std::string>;
 /// Seconds after which what a lens has begun ends.
 constexpr const char* longest_proof = "10";
 
-/// As a shell takes it for one word.
-std::string for_shell(const std::string& word) {
-  constexpr std::string_view plain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./:=";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char byte : word) quoted += byte == '\'' ? std::string("'\\''") : std::string(1, byte);
-  return quoted + "'";
-}
-
 class LensList {
  public:
   explicit LensList(const File& file) : file_(file) {
@@ -55,7 +45,7 @@ class LensList {
       words.push_back(option);
       shown.push_back(option);
     }
-    const std::string title = what + ": cbc " + join(shown, " ", for_shell);
+    const std::string title = what + ": cbc " + join(shown, " ", in_shell);
     lenses_.push_back(
         {{"range", to_json(file_.text->range_of(range))},
          {"command",

@@ -75,34 +75,17 @@ std::vector<Occurrence> occurrences_of(const Workspace& workspace, const File& c
   return found;
 }
 
-template <typename Things>
-std::optional<Range> place_among(const Things& things, const std::string& name) {
-  for (const auto& thing : things) {
-    if (thing.name == name) return thing.range;
-  }
-  return std::nullopt;
-}
-
 /// Where a name is defined: a task in its own entry, if it has one.
 std::optional<Range> place_of_definition(const File& catalog, const NameAt& name) {
   if (catalog.checked == nullptr || catalog.input->document == nullptr) return std::nullopt;
-  const Catalog& read = catalog.checked->reading.catalog;
-  switch (name.kind) {
-    case NameKind::behavior:
-      return place_among(read.behaviors, name.name);
-    case NameKind::variable:
-      return place_among(read.variables, name.name);
-    case NameKind::task:
-      break;
-  }
   const yaml::Node* const tasks = catalog.input->document->root().find("tasks");
-  if (tasks != nullptr) {
+  if (name.kind == NameKind::task && tasks != nullptr) {
     for (const yaml::Node* const item : tasks->items) {
       const yaml::Node* const task = item->find("task");
       if (task != nullptr && task->text == name.name) return task->range;
     }
   }
-  return place_among(read.tasks, name.name);
+  return place_of_name(catalog.checked->reading.catalog, name.kind, name.name);
 }
 
 std::optional<Occurrence> find_defined(const Cursor& cursor, const NameAt& name) {
@@ -124,11 +107,8 @@ std::optional<NameAt> find_name(const Cursor& cursor) {
   }
   if (file.input->document != nullptr && !file.names.empty()) return std::nullopt;
   const Context context = context_at(file.text->content(), cursor.offset);
-  const File* const catalog = cursor.workspace.catalog_of(file);
-  const Catalog* const known = catalog != nullptr && catalog->last_names != nullptr
-                                   ? &catalog->last_names->catalog
-                                   : nullptr;
-  const std::optional<NameKind> kind = name_kind_at(context, file.kind, known);
+  const std::optional<NameKind> kind =
+      name_kind_at(context, file.kind, cursor.workspace.known_catalog(file));
   if (!kind || context.text.empty()) return std::nullopt;
   return NameAt{*kind, context.text, context.begin, context.end};
 }

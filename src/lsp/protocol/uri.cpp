@@ -1,10 +1,9 @@
 #include "lsp/protocol/uri.h"
 
-#include <cctype>
 #include <charconv>
 #include <filesystem>
 
-#include <fmt/core.h>
+#include "core/support/wording.h"
 
 namespace cbc::lsp {
 
@@ -35,15 +34,6 @@ std::optional<std::string> path_of_uri(std::string_view uri) {
   return normal;
 }
 
-std::string uri_of_path(std::string_view path) {
-  std::string uri = "file://";
-  for (const char character : path) {
-    const auto byte = static_cast<unsigned char>(character);
-    const bool is_plain =
-        std::isalnum(byte) != 0 || std::string_view("/-._~").find(character) != std::string::npos;
-    uri += is_plain ? std::string(1, character) : fmt::format("%{:02X}", byte);
-  }
-  return uri;
-}
+std::string uri_of_path(std::string_view path) { return "file://" + percent_encode(path); }
 
 }  // namespace cbc::lsp

@@ -9,7 +9,6 @@
 #include "core/files/check_file.h"
 #include "core/files/file_search.h"
 #include "core/files/read.h"
-#include "core/script/reader.h"
 #include "lsp/protocol/uri.h"
 
 namespace cbc::lsp {
@@ -173,6 +172,12 @@ const File* Workspace::catalog_of(const File& file) const {
   return catalog != nullptr && catalog->kind == FileKind::catalog ? catalog : nullptr;
 }
 
+const Catalog* Workspace::known_catalog(const File& file) const {
+  const File* const catalog = catalog_of(file);
+  if (catalog == nullptr || catalog->last_names == nullptr) return nullptr;
+  return &catalog->last_names->catalog;
+}
+
 void Workspace::mark(const std::string& path) { to_check_.insert(path); }
 
 void Workspace::mark_all_below(const std::string& folder) {
@@ -295,9 +300,11 @@ std::string Workspace::find_catalog_of(const File& file) {
   }
   if (file.folder.empty()) return {};
   const auto [catalogs, is_new] = catalogs_.try_emplace(file.folder);
-  for (const auto& [path, other] : files_) {
-    if (!is_new) break;
-    if (other.kind == FileKind::catalog && other.folder == file.folder) catalogs->second.add(path);
+  if (is_new) {
+    for (const auto& [path, other] : files_) {
+      const bool is_in_folder = other.folder == file.folder;
+      if (is_in_folder && other.kind == FileKind::catalog) catalogs->second.add(path);
+    }
   }
   return catalogs->second.beside(file.path, file.folder);
 }

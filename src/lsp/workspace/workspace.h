@@ -71,6 +71,8 @@ class Workspace {
   [[nodiscard]] const std::map<std::string, File>& files() const { return files_; }
   /// The catalog that a file is, or is about; null if there is none. It may lack findings.
   [[nodiscard]] const File* catalog_of(const File& file) const;
+  /// The same as it was when it last had names; null if it never had.
+  [[nodiscard]] const Catalog* known_catalog(const File& file) const;
 
   /// Whether there are files whose findings may be others than before.
   [[nodiscard]] bool has_news() const { return !to_check_.empty() || !checked_.empty(); }

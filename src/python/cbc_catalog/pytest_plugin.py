@@ -42,6 +42,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     config.stash[_coverage_key] = _Coverage(config)
+    missing = [str(path) for path in _paths(config) if not path.exists()]
+    if missing:
+        raise pytest.UsageError(f"cbc_paths: there is no file or folder {', '.join(missing)}")
     if config.args_source == pytest.Config.ArgsSource.ARGS:
         return
     # Without arguments all tests are run, so these, too, also in folders that pytest leaves out.
@@ -58,9 +61,6 @@ def pytest_configure(config: pytest.Config) -> None:
 
 def _paths(config: pytest.Config) -> List[Path]:
     paths: List[Path] = config.getini("cbc_paths")
-    missing = [str(path) for path in paths if not path.exists()]
-    if missing:
-        raise pytest.UsageError(f"cbc_paths: there is no file or folder {', '.join(missing)}")
     return paths
 
 
