@@ -170,7 +170,7 @@ Stepper::Options share_memory(const ExplorationOptions& options, std::uint64_t& 
   constexpr std::uint64_t most = std::uint64_t{256} << 20;
   result.decision_bytes = memory == 0 ? most : std::min(most, memory / 4);
   // An array that grows takes twice its size for a while.
-  if (memory > 0) memory -= std::min(memory / 2, 2 * result.decision_bytes);
+  if (memory > 0) memory -= std::min<std::uint64_t>(memory / 2, 2 * result.decision_bytes);
   return result;
 }
 
