@@ -13,7 +13,8 @@ class Play {
       onFindings: (kind, findings) => this.showFindings(kind, findings),
       onCatalog: (catalog, requestable) => this.robot.build(catalog, requestable),
     });
-    this.robot = new Robot({ onAsk: (entry) => this.ask(entry), onPreview: (entry) => this.preview(entry) });
+    this.robot = new Robot({ onAsk: (entry) => this.ask(entry), onPreview: (entry) => this.preview(entry),
+                             onWhy: (task) => this.explain(task).catch((error) => this.note(error.message, true)) });
     this.catalog = new TextEditor(byId('text-catalog'), 'Catalog', debounced((text) => this.openCatalog(text)));
     this.mission = new TextEditor(byId('text-mission'), 'Mission', debounced((text) => this.simulation.load(text)));
     this.properties = new TextEditor(byId('text-properties'), 'Properties', () => {});
@@ -149,6 +150,23 @@ class Play {
     const later = run.size - simulation.index;
     document.body.classList.toggle('is-past', later > 0);
     byId('later').textContent = later > 0 ? `In the past: what you do now takes the place of ${quantity(later, 'later event')}.` : '';
+  }
+
+  /** Why a task runs as it does, or does not. */
+  async explain(task) {
+    const event = await this.simulation.why(task);
+    const { catalog } = this.simulation;
+    const parts = [html('h2', '', `Why is ${task} as it is?`)];
+    if (event === null) {
+      parts.push(html('p', '', 'No event has asked for anything that bears on it.'));
+    } else {
+      parts.push(html('p', 'hint', `Decided by event ${event.index}, ${describeEvent(event, catalog)}: ${event.outcome ?? ''}`),
+                 ...(event.why ?? []).flatMap((why) => whyElements(why, catalog)),
+                 ...(event.conflict.length === 0 ? [] : [html('h3', '', 'Reasons: without any one of them it would be possible'),
+                   html('ul', '', ...event.conflict.map(({ message }) => html('li', '', message)))]));
+    }
+    byId('why-body').replaceChildren(...parts);
+    byId('why').showModal();
   }
 
   // The clock -------------------------------------------------------------------------------------

@@ -28,7 +28,7 @@ function eventButton(text, label, entry, { onAsk, onPreview }) {
 const inSeconds = (seconds) => `${seconds.toFixed(seconds < 10 ? 1 : 0)} s`;
 
 class Robot {
-  /** `asks`: {onAsk(entry), onPreview(entry or null)}. */
+  /** `asks`: {onAsk(entry), onPreview(entry or null), onWhy(task)}. */
   constructor(asks) {
     this.asks = asks;
     byId('filter').addEventListener('input', () => this.filter());
@@ -61,8 +61,9 @@ class Robot {
     const stop = eventButton('stop', `stop ${name}`, () => ({ stop: name }), this.asks);
     const finish = eventButton('finish', `finish ${name}`, () => ({ finish: { task: name } }), this.asks);
     const fail = eventButton('fail', `fail ${name}`, () => ({ finish: { task: name }, cause: 'process_failure' }), this.asks);
-    start.disabled = !isRequestable;
-    row.buttons.append(start, stop, finish, fail);
+    const why = buttonElement('why?', () => this.asks.onWhy(name));
+    why.setAttribute('aria-label', `why ${name} is as it is`);
+    row.buttons.append(start, stop, finish, fail, why);
     return { ...row, start, stop, finish, fail, isRequestable };
   }
 

@@ -84,7 +84,10 @@ class Simulation {
       this.showRun(run.begin, [...kept, ...events], [...keptFailures, ...failures]);
     }
     await this.arrive(answer);
-    this.view.onNote(warnings.join('; '), warnings.length > 0);
+    const rejected = events.find((event) => event.outcome === 'rejected');
+    const reasons = rejected?.conflict.map(({ message }) => message).join('; ');
+    const notes = [...(rejected === undefined ? [] : [`${describeEvent(rejected, this.catalog)} was rejected: ${reasons}`]), ...warnings];
+    this.view.onNote(notes.join('; '), notes.length > 0);
     this.view.onText();
   }
 
