@@ -72,7 +72,9 @@ TEST(Layers, IncludeOnlyLowerOnes) {
   const std::map<std::string, int> rows = rows_of_table();
   const auto row_of = [&](const std::string& folder) {
     const auto row = rows.find(folder);
-    return row != rows.end() ? row->second : rows.contains(command_of(folder)) ? row_of_commands : 0;
+    return row != rows.end()                   ? row->second
+           : rows.contains(command_of(folder)) ? row_of_commands
+                                               : 0;
   };
   std::set<std::string> folders;
   std::map<std::string, std::set<std::string>> other_commands;
