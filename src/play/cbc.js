@@ -43,7 +43,7 @@ class Cbc {
     FS.chdir(folder);
     const before = new Map();
     for (const [path, content] of Object.entries(files)) {
-      const whole = path.startsWith('/') ? path : FS.joinPath([folder, path]);
+      const whole = path.startsWith('/') ? path : `${folder}/${path}`;
       write(whole, content);
       before.set(whole, FS.readFile(whole));
     }
@@ -57,7 +57,7 @@ class Cbc {
     const written = {};
     const visit = (at) => {
       for (const name of FS.readdir(at).filter((one) => one !== '.' && one !== '..')) {
-        const path = FS.joinPath([at, name]);
+        const path = `${at}/${name}`;
         if (FS.isDir(FS.stat(path).mode)) {
           visit(path);
         } else {

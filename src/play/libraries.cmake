@@ -1,9 +1,11 @@
-# The libraries of the program for WebAssembly. Debian has none for it: headers come through a folder of links, as what else
-# is in /usr/include is for another system, and yaml-cpp is compiled from Debian's source package, which ./dev play unpacks.
+# The libraries of the program for WebAssembly. Debian has none for it: headers come through a folder of links, as
+# what else is in /usr/include is for another system, and yaml-cpp is compiled from Debian's source package, which
+# ./dev play unpacks.
 
 set(CBC_YAML_CPP_SOURCE "${PROJECT_SOURCE_DIR}/build/yaml-cpp" CACHE PATH "Unpacked source of yaml-cpp")
 if(NOT EXISTS "${CBC_YAML_CPP_SOURCE}/include/yaml-cpp/yaml.h")
-  message(FATAL_ERROR "CBC_YAML_CPP_SOURCE: expected the source of yaml-cpp in ${CBC_YAML_CPP_SOURCE}; ./dev play unpacks it")
+  message(FATAL_ERROR "CBC_YAML_CPP_SOURCE: expected the source of yaml-cpp in ${CBC_YAML_CPP_SOURCE}; "
+                      "./dev play unpacks it")
 endif()
 
 set(library_headers "${CMAKE_CURRENT_BINARY_DIR}/library_headers")

@@ -17,5 +17,4 @@ int posix_spawnp(pid_t* /*process*/, const char* /*file*/,
                  char* const* /*environment*/) {
   return ENOSYS;
 }
-
 }

@@ -1,6 +1,5 @@
-#include <string>
-
 #include <emscripten/emscripten.h>
+#include <string>
 
 #include "play/session.h"
 
@@ -17,5 +16,4 @@ const char* cbc_session(const char* request) {
   answer = session.answer(request);
   return answer.c_str();
 }
-
 }

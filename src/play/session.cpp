@@ -37,9 +37,8 @@ std::string text_or(const JsonValue& request, std::string_view name, std::string
 
 std::size_t count_errors(const std::vector<Diagnostic>& findings) {
   return static_cast<std::size_t>(
-      std::count_if(findings.begin(), findings.end(), [](const Diagnostic& finding) {
-        return finding.severity == Severity::error;
-      }));
+      std::count_if(findings.begin(), findings.end(),
+                    [](const Diagnostic& finding) { return finding.severity == Severity::error; }));
 }
 
 /// What has come of an entry, as an expectation that holds.
@@ -128,8 +127,8 @@ std::string Session::answer(std::string_view text) {
 void Session::check(const JsonValue& request, bool begins, JsonWriter& answer) {
   const std::string name = text_or(request, "name", "catalog.yaml");
   Diagnostics of_settings;
-  const auto settings = read_settings(text_or(request, "settings", ""),
-                                      std::string(settings_file_name), of_settings);
+  const auto settings =
+      read_settings(text_or(request, "settings", ""), std::string(settings_file_name), of_settings);
   cli::FileSet files(cli::FileSet::Findings::dropped);
   const auto file = files.parse(name, request["catalog"].text());
   auto checked = std::make_shared<CheckedCatalog>(
@@ -138,8 +137,11 @@ void Session::check(const JsonValue& request, bool begins, JsonWriter& answer) {
   linted[0] = {name, *file->text, checked->findings, {}, LintedFile::Kind::catalog};
   if (checked->compiled != nullptr) linted[0].summary = summarize(*checked->compiled);
   if (!settings) {
-    linted.push_back({std::string(settings_file_name), text_or(request, "settings", ""),
-                      of_settings.all(), {}, LintedFile::Kind::settings});
+    linted.push_back({std::string(settings_file_name),
+                      text_or(request, "settings", ""),
+                      of_settings.all(),
+                      {},
+                      LintedFile::Kind::settings});
   }
   answer.write_json("lint", lint_json(linted));
   if (!begins || !settings || checked->errors > 0 || checked->compiled == nullptr) return;
@@ -235,8 +237,8 @@ void Session::run(Entry& entry) {
                              : "the clock made too many events; move it in smaller steps");
   }
   entry.after = runner_->snapshot();
-  entry.reached = expectation_of(*catalog_, entry.step, runner_->coordinator().state(),
-                                 entry.after.outcome);
+  entry.reached =
+      expectation_of(*catalog_, entry.step, runner_->coordinator().state(), entry.after.outcome);
 }
 
 /// Does an entry in the present state; those that came after it are gone.
@@ -343,9 +345,8 @@ std::string Session::what_if_report(const std::vector<Step>& steps, bool has_mov
   const MissionMoment moment{present(), std::nullopt};
   WhatIfJson report({*catalog_, script_, moment, runner_->coordinator().state()});
   if (has_moves) {
-    const RunResult result =
-        try_moves(*catalog_, options_of(script_), moment.snapshot, steps,
-                  [&report](const PossibleMove& move) { report.add(move); });
+    const RunResult result = try_moves(*catalog_, options_of(script_), moment.snapshot, steps,
+                                       [&report](const PossibleMove& move) { report.add(move); });
     if (!result.internal_error.empty()) throw JsonFault("internal error: " + result.internal_error);
   }
   return report.finish();
@@ -405,9 +406,9 @@ void Session::why(const JsonValue& request, JsonWriter& answer) {
   if (!task && !behavior) {
     throw JsonFault("catalog " + quote(catalog_->file) + " has no task or behavior " + quote(name));
   }
-  const TaskId of = task ? catalog_->task_ids[*task]
-                         : catalog_->task_of(
-                               catalog_->performs[catalog_->behavior_ids[*behavior]].front());
+  const TaskId of =
+      task ? catalog_->task_ids[*task]
+           : catalog_->task_of(catalog_->performs[catalog_->behavior_ids[*behavior]].front());
   const std::uint64_t wanted = decider_of(of, index);
   if (wanted == 0) return answer.write_json("event", "null");
   std::size_t place = 0;
@@ -424,9 +425,12 @@ void Session::why(const JsonValue& request, JsonWriter& answer) {
 
 void Session::write_mission(JsonWriter& answer) const {
   Script mission = script_;
-  auto done = std::vector(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(position_));
+  auto done =
+      std::vector(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(position_));
   if (cut_) done.push_back(cut_);
-  const auto is_expectation = [](const Entry& entry) { return entry.step.expect && !entry.is_clock; };
+  const auto is_expectation = [](const Entry& entry) {
+    return entry.step.expect && !entry.is_clock;
+  };
   for (std::size_t place = 0; place < done.size(); ++place) {
     const Entry& entry = *done[place];
     if (!entry.is_clock) mission.steps.push_back(entry.step);

@@ -38,12 +38,14 @@ namespace cbc::play {
 ///            first new event; later ones of before are gone), `events` and `failures` as the page
 ///            gets them, `warnings`
 ///   advance  to (seconds; absent: when something falls due next): the same
-///   goto     index (of an event; 0: before all): `index` and `time` that were reached; what follows
+///   goto     index (of an event; 0: before all): `index` and `time` that were reached; what
+///   follows
 ///            one event at once, and all that the clock does at its instant, belongs to it
 ///   what_if  events (entries; absent: all that may be asked for): `report`, as cbc.what-if/1;
 ///            `errors` of entries that are left out
 ///   state    `report`, as cbc.what-if/1 without moves; `timeouts`, by task; `next_due`, or null
-///   why      subject (a task or behavior), index (of an event; absent: now): the `event` that decided
+///   why      subject (a task or behavior), index (of an event; absent: now): the `event` that
+///   decided
 ///            about it, as `cbc solve --why --format json` has it, or null
 ///   mission  `mission`: the session as a script, with expectations
 class Session {
@@ -94,7 +96,7 @@ class Session {
   std::vector<std::shared_ptr<const Entry>> entries_;
   std::size_t position_ = 0;          ///< how many of them are done
   std::shared_ptr<const Entry> cut_;  ///< done after these: a part of the next one; or null
-  std::vector<Happened> events_;  ///< of all entries
+  std::vector<Happened> events_;      ///< of all entries
   std::optional<EventStream> stream_;
   std::optional<Runner> runner_;
   FailureExplanation explanation_;

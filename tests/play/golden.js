@@ -1,17 +1,19 @@
 // Runs the cases of tests/golden through the program in WebAssembly: status and all output are those of the native one.
 //
-//   node golden.js FOLDER   FOLDER has play.js and play.wasm
+//   node golden.js FOLDER [PART]   FOLDER has play.js and play.wasm; PART: of the names of the cases to run
 'use strict';
 
 const fs = require('node:fs');
 const path = require('node:path');
 const { loadProgram } = require('./program.js');
 
-const cases = path.join(__dirname, '..', 'golden', 'cases');
+const root = path.join(__dirname, '..', '..');
+const cases = path.join(root, 'tests', 'golden', 'cases');
 
 /** Why a case cannot run where there is nothing but files, or undefined. */
 const obstacles = [
   ['a device', (words) => words.some((word) => word.startsWith('/dev/') || word.startsWith('/proc/'))],
+  ['standard input to be one of the files', (words) => words.includes('stdin')],
   ['a server', (words) => words.some((word) => word.startsWith('--serve'))],
   ['the address of the working directory', (words) => words.includes('sarif')],
   ['Graphviz', (words) => words.some((word) => /\.(svg|png|pdf)$/.test(word)) || words.includes('svg')],
@@ -25,28 +27,33 @@ function split(line) {
   return words;
 }
 
-/** The files of a folder, by their paths below the folder of all cases. */
-function filesOf(name, files = {}) {
-  for (const entry of fs.readdirSync(path.join(cases, name), { withFileTypes: true, recursive: true })) {
+/** The files of a folder of the sources, by their paths there. */
+function filesOf(folder) {
+  const files = {};
+  for (const entry of fs.readdirSync(path.join(root, folder), { withFileTypes: true, recursive: true })) {
     const whole = path.join(entry.parentPath ?? entry.path, entry.name);
     if (fs.statSync(whole, { throwIfNoEntry: false })?.isFile()) {
-      files[`/cases/${path.relative(cases, whole)}`] = fs.readFileSync(whole);
+      files[`/${path.relative(root, whole)}`] = fs.readFileSync(whole);
     }
   }
   return files;
 }
 
-/** The same with those of the other cases that they name. */
-function inputsOf(name, words) {
-  const texts = [...words, ...Object.values(filesOf(name)).map((content) => content.toString('latin1'))];
-  const others = new Set([name]);
-  for (const text of texts) {
-    for (const [, other] of text.matchAll(/\.\.\/([a-z0-9_]+)/g)) {
-      if (fs.existsSync(path.join(cases, other))) others.add(other);
+/** The files of a case, with those of the folders that its command and they name. */
+function inputsOf(folder) {
+  const files = filesOf(folder);
+  const folders = new Set([folder]);
+  for (const at of folders) { // which grows meanwhile
+    for (const content of Object.values(filesOf(at))) {
+      for (const [name] of content.toString('latin1').matchAll(/(\.\.\/)+[A-Za-z0-9_]+/g)) {
+        const other = path.join(at, name);
+        const isFolder = !other.startsWith('..') && fs.statSync(path.join(root, other), { throwIfNoEntry: false })?.isDirectory();
+        if (!isFolder || folders.has(other)) continue;
+        folders.add(other);
+        Object.assign(files, filesOf(other));
+      }
     }
   }
-  const files = {};
-  for (const other of others) filesOf(other, files);
   return files;
 }
 
@@ -62,8 +69,8 @@ function firstDifference(wanted, found) {
   return `line ${place + 1}: expected\n    ${left[place]}\n  but found\n    ${right[place]}`;
 }
 
-async function main(folder, only) {
-  const program = await loadProgram(path.resolve(folder));
+async function main(built, only) {
+  const program = await loadProgram(path.resolve(built));
   const leftOut = new Map();
   let count = 0;
   let failures = 0;
@@ -78,8 +85,8 @@ async function main(folder, only) {
     ++count;
     let problem;
     try {
-      const result = await program.run(words, inputsOf(name, words),
-        { folder: `/cases/${name}`, stdin: expected(name, 'stdin') });
+      const folder = `tests/golden/cases/${name}`;
+      const result = await program.run(words, inputsOf(folder), { folder: `/${folder}`, stdin: expected(name, 'stdin') });
       const differs = ['stdout', 'stderr'].find((file) => !expected(name, file).equals(result[file]));
       if (differs !== undefined) problem = `${differs}, ${firstDifference(expected(name, differs), result[differs])}`;
       const status = Number(expected(name, 'status'));
