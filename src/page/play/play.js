@@ -258,13 +258,11 @@ class Play {
   }
 
   undo() {
-    if (this.simulation.canUndo) return this.simulation.goTo(this.simulation.index - 1);
-    return undefined;
+    return this.simulation.canUndo ? this.simulation.undo() : undefined;
   }
 
   redo() {
-    if (this.simulation.canRedo) return this.simulation.goTo(this.simulation.index + 1);
-    return undefined;
+    return this.simulation.canRedo ? this.simulation.goTo(this.simulation.index + 1) : undefined;
   }
 
   setUpTabs() {

@@ -115,6 +115,19 @@ class Simulation {
     });
   }
 
+  /** To before the last thing that was done, with all that followed it at once. */
+  undo() {
+    return this.do(async () => {
+      const present = this.index;
+      let answer = { index: present };
+      for (let wanted = present - 1; wanted >= 0 && answer.index >= present; --wanted) {
+        answer = await this.engine.ask({ do: 'goto', index: wanted });
+      }
+      await this.arrive(answer);
+      this.view.onText();
+    });
+  }
+
   /** The present state is that after the event of an answer, or after the last one. */
   async arrive(answer = { index: this.page.run.size }) {
     this.index = answer.index;
