@@ -634,6 +634,19 @@ class WholeFiles(LspTest):
             asked = {"diagnostics": [found], "only": only}
             self.assertEqual(bool(client.of("codeAction", self.robot, range=found["range"], context=asked)), is_meant)
 
+    def test_older_format(self):
+        old = (SOURCE / "tests" / "golden" / "cases" / "graph_older_format" / "catalog.yaml").read_text()
+        client = self.start()
+        client.open(self.robot, old)
+        client.settle()
+        found = client.findings[str(self.robot)][0]
+        fixes = client.of("codeAction", self.robot, range=found["range"], context={"diagnostics": [found]})
+        fix = next(fix["edit"] for fix in fixes if fix["title"] == "Convert to the present format")
+        converted = Names.apply(self, old, fix["changes"][uri_of(self.robot)])
+        by_command = self.write("old.yaml", old)
+        run_cbc("lint", "--fix", by_command)
+        self.assertEqual(converted, by_command.read_text())
+
     def test_allowing_in_settings(self):
         client = self.start()
         text = ROBOT.replace("- {task: LOCALIZE", "- {task: EXTRA}\n- {task: LOCALIZE")

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "core/catalog/older_format.h"
 #include "core/catalog/renaming.h"
 #include "core/check/check.h"
 #include "core/check/controls.h"
@@ -27,6 +28,7 @@ class FixList {
       const std::size_t to = file.text->offset_of(finding.range.end);
       if (to < begin || end < from) continue;
       add_fix(finding);
+      add_conversion(finding);
       add_suggestion(finding, from, to);
       add_allowance(finding, from);
       add_setting(finding);
@@ -61,6 +63,17 @@ class FixList {
     if (!fixed.mended.empty()) {
       add(fmt::format("Fix: {}", finding.message), finding, fixed.text, true);
     }
+  }
+
+  /// A catalog of an older format, as `cbc lint --fix` converts it.
+  void add_conversion(const Diagnostic& finding) {
+    const bool is_meant = file_.kind == cli::FileKind::catalog && file_.is_parsed &&
+                          file_.input->document != nullptr &&
+                          finding.rule == rule::older_format.name;
+    if (!is_meant || !find_older_format(file_.input->document->root())) return;
+    const Conversion conversion = convert_older_format(*file_.input->document, text_);
+    if (conversion.obstacle) return;
+    add("Convert to the present format", finding, conversion.text, true);
   }
 
   void add_suggestion(const Diagnostic& finding, std::size_t from, std::size_t to) {
