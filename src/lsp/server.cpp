@@ -31,21 +31,10 @@ constexpr int info = 3;
 
 /// How long nobody types before findings are found.
 constexpr auto pause_of_typing = std::chrono::milliseconds(100);
-constexpr auto look_for_client = std::chrono::seconds(2);
+constexpr auto look_around_each = std::chrono::seconds(2);
 
 std::string text_of(const Json& value) {
   return value.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-/// A member of a member; null if there is none.
-Json find_member(const Json& value, std::initializer_list<const char*> names) {
-  const Json* at = &value;
-  for (const char* const name : names) {
-    const auto found = at->is_object() ? at->find(name) : at->end();
-    if (found == at->end()) return nullptr;
-    at = &*found;
-  }
-  return *at;
 }
 
 Place place_of(const Json& position) {
@@ -124,7 +113,7 @@ int Server::run(std::FILE* input) {
   while (!exit_status_) {
     const bool is_quiet = Clock::now() >= quiet_since_ + pause_of_typing;
     const bool has_news = workspace_ != nullptr && workspace_->has_news();
-    const Clock::time_point until = !has_news  ? Clock::now() + look_for_client
+    const Clock::time_point until = !has_news  ? Clock::now() + look_around_each
                                     : is_quiet ? Clock::now()
                                                : quiet_since_ + pause_of_typing;
     if (auto item = inbox_->take(until)) {
@@ -137,11 +126,12 @@ int Server::run(std::FILE* input) {
       } else {
         exit_status_ = was_shut_down_ ? 0 : 1;
       }
-    } else if (!work() && is_client_gone()) {
-      exit_status_ = 1;
+    } else if (!work()) {
+      look_around();
     }
   }
   proofs_.reset();
+  runs_.reset();
   return *exit_status_;
 }
 
@@ -211,26 +201,24 @@ void Server::notify(const std::string& method, Json params) {
 }
 
 void Server::request(const std::string& method, Json params) {
-  output_.write(text_of({{"jsonrpc", "2.0"},
-                         {"id", "cbc-" + std::to_string(++requests_made_)},
-                         {"method", method},
-                         {"params", std::move(params)}}));
+  Json message = {
+      {"jsonrpc", "2.0"}, {"id", "cbc-" + std::to_string(++requests_made_)}, {"method", method}};
+  if (!params.is_null()) message["params"] = std::move(params);
+  output_.write(text_of(message));
 }
 
 Json Server::initialize(const Json& params) {
   if (workspace_ != nullptr) throw Refusal("it is initialized already");
-  const Json encodings = find_member(params, {"capabilities", "general", "positionEncodings"});
-  const bool has_utf8 = encodings.is_array() &&
-                        std::find(encodings.begin(), encodings.end(), "utf-8") != encodings.end();
-  encoding_ = has_utf8 ? Encoding::utf8 : Encoding::utf16;
-  workspace_ = std::make_unique<Workspace>(encoding_);
+  client_ = client_of(params);
+  workspace_ = std::make_unique<Workspace>(client_.encoding);
   proofs_ = std::make_unique<Proofs>([this](const Proofs::Job& job, CheckedCatalog proved) {
     inbox_->put(Proved{job, std::move(proved)});
   });
+  runs_ = std::make_unique<CommandRuns>([this](const CommandRuns::Words& words, Filtered said) {
+    inbox_->put(Ran{words, std::move(said)});
+  });
   const Json process = find_member(params, {"processId"});
   if (process.is_number_integer()) client_process_ = process.get<long long>();
-  can_watch_ = find_member(params, {"capabilities", "workspace", "didChangeWatchedFiles",
-                                    "dynamicRegistration"}) == true;
   const auto add_folder = [this](const Json& uri) {
     const auto path = uri.is_string() ? path_of_uri(uri.get<std::string>()) : std::nullopt;
     if (path) workspace_->add_folder(*path);
@@ -242,7 +230,7 @@ Json Server::initialize(const Json& params) {
     add_folder(find_member(params, {"rootUri"}));
   }
   Json capabilities = {
-      {"positionEncoding", has_utf8 ? "utf-8" : "utf-16"},
+      {"positionEncoding", client_.encoding == Encoding::utf8 ? "utf-8" : "utf-16"},
       {"textDocumentSync", {{"openClose", true}, {"change", 2}}},
       {"completionProvider", {{"triggerCharacters", {" ", "{", "[", ","}}}},
       {"hoverProvider", true},
@@ -294,7 +282,8 @@ void Server::add_requests() {
     return Json();
   };
   requests_["textDocument/completion"] = [this](const Json& params) {
-    return at_cursor(params, text_of_request(params), Json::array(), &list_completions);
+    return at_cursor(params, text_of_request(params), Json::array(),
+                     [this](const Cursor& cursor) { return list_completions(cursor, client_); });
   };
   requests_["textDocument/hover"] = [this](const Json& params) {
     return at_cursor(params, text_of_request(params), nullptr, &find_hover);
@@ -319,12 +308,12 @@ void Server::add_requests() {
     const auto new_name = params.at("newName").get<std::string>();
     workspace_->check_all();
     return at_cursor(params, file_of(params), nullptr, [&](const Cursor& cursor) -> Json {
-      return {{"documentChanges", rename(cursor, new_name)}};
+      return rename(cursor, new_name, client_);
     });
   };
   requests_["textDocument/documentSymbol"] = [this](const Json& params) {
     const File* const file = file_of(params);
-    return file == nullptr ? Json::array() : list_symbols(*file);
+    return file == nullptr ? Json::array() : list_symbols(*file, client_);
   };
   requests_["textDocument/foldingRange"] = [this](const Json& params) {
     const File* const file = file_of(params);
@@ -345,8 +334,17 @@ void Server::add_requests() {
     return list(*workspace_, *file, file->text->offset_of(place_of(range.at("start"))),
                 file->text->offset_of(place_of(range.at("end"))));
   };
-  requests_["textDocument/codeAction"] = [in_range](const Json& params) {
-    return in_range(params, &list_fixes);
+  requests_["textDocument/codeAction"] = [this, in_range](const Json& params) -> Json {
+    const Json kinds = find_member(params, {"context", "only"});
+    const bool wants_fixes =
+        !kinds.is_array() || std::any_of(kinds.begin(), kinds.end(), [](const Json& kind) {
+          return kind == "" || kind == "quickfix";
+        });
+    if (!wants_fixes) return Json::array();
+    return in_range(params, [this](const Workspace& workspace, const File& file, std::size_t begin,
+                                   std::size_t end) {
+      return list_fixes(workspace, file, begin, end, client_);
+    });
   };
   requests_["textDocument/inlayHint"] = [in_range](const Json& params) {
     return in_range(params, &list_hints);
@@ -395,7 +393,7 @@ void Server::add_notifications() {
 }
 
 void Server::begin() {
-  if (!can_watch_) return;
+  if (!client_.can_watch) return;
   const Json watchers = {{{"globPattern", "**/*.{yaml,yml}"}}};
   request("client/registerCapability", {{"registrations",
                                          {{{"id", "files"},
@@ -414,7 +412,7 @@ void Server::change_text(const Json& params) {
       text = change.at("text").get<std::string>();
       continue;
     }
-    const Text before(std::move(text), encoding_);
+    const Text before(std::move(text), client_.encoding);
     const std::size_t begin = before.offset_of(place_of(change.at("range").at("start")));
     const std::size_t end = before.offset_of(place_of(change.at("range").at("end")));
     text = before.content().substr(0, begin);
@@ -437,15 +435,7 @@ void Server::run_command(const Json& params) {
     });
   });
   if (params.at("command") != "cbc.run" || !is_known) throw Refusal("there is no such command");
-  std::thread([inbox = inbox_, words = std::move(words)]() mutable {
-    std::vector<std::string> line{"/proc/self/exe"};
-    line.insert(line.end(), words.begin(), words.end());
-    if (const std::string folder = cli::confinement(); !folder.empty()) {
-      line.insert(line.end(), {"--confine", folder});
-    }
-    Filtered said = run_filter(line, "");
-    inbox->put(Ran{std::move(words), std::move(said)});
-  }).detach();
+  runs_->begin(std::move(words));
 }
 
 /// All of it in the log, and what it comes to as a message: the line of totals, or else the last
@@ -465,9 +455,30 @@ void Server::show(const Ran& ran) {
 
 bool Server::work() {
   if (workspace_ == nullptr || !workspace_->has_news()) return false;
-  publish(workspace_->next_checked());
-  if (!workspace_->has_news()) prove_next();
+  const File& file = workspace_->next_checked();
+  has_old_answers_ = has_old_answers_ || file.kind == cli::FileKind::catalog;
+  publish(file);
+  if (!workspace_->has_news()) {
+    prove_next();
+    renew_answers();
+  }
   return true;
+}
+
+/// Hints and lenses of a mission change with its catalog, and a client does not know of that.
+void Server::renew_answers() {
+  if (!has_old_answers_) return;
+  has_old_answers_ = false;
+  if (client_.renews_hints) request("workspace/inlayHint/refresh", nullptr);
+  if (client_.renews_lenses) request("workspace/codeLens/refresh", nullptr);
+}
+
+/// From time to time, while there is nothing to do.
+void Server::look_around() {
+  if (is_client_gone()) exit_status_ = 1;
+  if (workspace_ == nullptr || Clock::now() < looked_at_disk_ + look_around_each) return;
+  looked_at_disk_ = Clock::now();
+  workspace_->look_at_disk(!client_.can_watch);
 }
 
 /// The next proofs, unless they are those that are being made.

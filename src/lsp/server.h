@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/support/system.h"
+#include "lsp/command_runs.h"
 #include "lsp/features/features.h"
 #include "lsp/inbox.h"
 #include "lsp/protocol/frames.h"
@@ -66,6 +67,8 @@ class Server {
   [[nodiscard]] bool work();
   void publish(const File& file);
   void prove_next();
+  void renew_answers();
+  void look_around();
   [[nodiscard]] bool is_client_gone() const;
 
   /// The file of a request, as it is now; it need not be one for cbc. Null: not known.
@@ -84,12 +87,14 @@ class Server {
   std::map<std::string, Take> notifications_;
   std::unique_ptr<Workspace> workspace_;  ///< null: not initialized
   std::unique_ptr<Proofs> proofs_;
-  Encoding encoding_ = Encoding::utf16;
+  std::unique_ptr<CommandRuns> runs_;
+  Client client_;
   std::set<std::string> published_;  ///< files with findings that the client shows
   Clock::time_point quiet_since_{};  ///< the last change of a text
   std::optional<int> exit_status_;
   long long client_process_ = 0;  ///< 0: not known
-  bool can_watch_ = false;        ///< the client tells of changes on the disk if it is asked to
+  Clock::time_point looked_at_disk_{};
+  bool has_old_answers_ = false;  ///< a catalog is another one than what clients have asked about
   bool was_shut_down_ = false;
   int requests_made_ = 0;
 };

@@ -6,14 +6,25 @@ import pathlib
 import queue
 import subprocess
 import threading
+import time
 import urllib.parse
 
 PROGRAM = os.environ["CBC_PROGRAM"]
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 PATIENCE = 60  # seconds of a busy machine
+RECORD = os.environ.get("CBC_LSP_RECORD")  # a file that takes what servers say, for check_types.py
+# What editors can do.
+EDITOR = {
+    "textDocument": {"completion": {"completionItem": {"snippetSupport": True}},
+                     "documentSymbol": {"hierarchicalDocumentSymbolSupport": True}},
+    "workspace": {"workspaceEdit": {"documentChanges": True, "resourceOperations": ["create"]},
+                  "didChangeWatchedFiles": {"dynamicRegistration": True},
+                  "inlayHint": {"refreshSupport": True}, "codeLens": {"refreshSupport": True}}}
 
 
 def uri_of(path):
+    if str(path).startswith("untitled:"):
+        return path
     return "file://" + urllib.parse.quote(str(path))
 
 
@@ -27,14 +38,16 @@ class Client:
     def __init__(self, *folders, capabilities=None, begin=True, options=()):
         self.process = subprocess.Popen([PROGRAM, "lsp", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self.inbox = queue.Queue()
+        self.methods = {}  # of requests, by number
         self.findings = {}
         self.versions = {}
         self.requests = []  # of the server
         self.asked = 0
-        threading.Thread(target=self._read, daemon=True).start()
+        self.reader = threading.Thread(target=self._read, daemon=True)
+        self.reader.start()
         if begin:
             self.capabilities = self.ask("initialize", {
-                "processId": os.getpid(), "rootUri": None, "capabilities": capabilities or {},
+                "processId": os.getpid(), "rootUri": None, "capabilities": EDITOR if capabilities is None else capabilities,
                 "workspaceFolders": [{"uri": uri_of(folder), "name": "folder"} for folder in folders]})["capabilities"]
             self.tell("initialized", {})
 
@@ -44,6 +57,7 @@ class Client:
     def __exit__(self, *_):
         self.process.kill()
         self.process.wait()
+        self.reader.join()
         self.process.stdin.close()
         self.process.stdout.close()
 
@@ -55,7 +69,12 @@ class Client:
                 break
             name, length = header.split(b": ")
             assert name == b"Content-Length" and stream.readline() == b"\r\n"
-            self.inbox.put(json.loads(stream.read(int(length))))
+            message = json.loads(stream.read(int(length)))
+            if RECORD:
+                method = message.get("method") or self.methods.get(message["id"])
+                with open(RECORD, "a", encoding="utf-8") as record:
+                    record.write(json.dumps([method, message]) + "\n")
+            self.inbox.put(message)
         self.inbox.put(None)
 
     def write(self, data):
@@ -92,6 +111,7 @@ class Client:
     def try_ask(self, method, params):
         """The whole answer, which may be an error."""
         self.asked += 1
+        self.methods[self.asked] = method
         self.send({"id": self.asked, "method": method, "params": params})
         return self.answer(self.asked)
 
@@ -103,7 +123,7 @@ class Client:
     def settle(self):
         """Until there is nothing more to find."""
         while self.ask("cbc/isIdle", {}) is not True:
-            pass
+            time.sleep(0.002)
 
     def open(self, path, text=None, version=1):
         text = pathlib.Path(path).read_bytes().decode() if text is None else text

@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -149,6 +150,58 @@ class Protocol(LspTest):
             self.assertEqual(found[0]["range"], span(line, column, line, column + 9))
 
 
+    def test_one_long_line(self):
+        tasks = [f"T{number}_\U0001F422" for number in range(3000)]
+        text = json.dumps({"behaviors": [{"behavior": "B_" + task, "task": task} for task in tasks]},
+                          ensure_ascii=False)
+        units = lambda text: len(text.encode("utf-16-le")) // 2
+        client = self.start()
+        client.open(self.robot, text)
+        for task in (tasks[0], tasks[1], tasks[1999], tasks[-1]):
+            begin = units(text[:text.index(f'"{task}"')])
+            end = begin + units(task) + 2
+            for column in (begin, end - 1):
+                found = client.at("documentHighlight", self.robot, 0, column)
+                self.assertEqual([item["range"] for item in found], [span(0, begin, 0, end)])
+
+    def test_a_client_that_can_do_little(self):
+        client = self.start(capabilities={})
+        symbols = {(symbol["name"], symbol.get("containerName")) for symbol in client.of("documentSymbol", self.robot)}
+        self.assertTrue({("behaviors", None), ("LIDAR", "behaviors")} <= symbols)
+        edit = client.at("rename", self.mission, *Names.place_of(self, MISSION, "LIDAR]", "LIDAR"), newName="RADAR")
+        self.assertEqual(edit.keys(), {"changes"})
+        self.assertEqual(edit["changes"].keys(), {uri_of(self.robot), uri_of(self.mission)})
+        client.open(self.mission, MISSION + "- ")
+        for item in client.at("completion", self.mission, MISSION.count("\n"), 2)["items"]:
+            self.assertNotIn("${", item["textEdit"]["newText"])
+            self.assertEqual(item["insertTextFormat"], 1)
+        client.open(self.robot, ROBOT.replace("- {task: LOCALIZE", "- {task: EXTRA}\n- {task: LOCALIZE"))
+        client.settle()
+        found = client.findings[str(self.robot)][0]
+        fixes = client.of("codeAction", self.robot, range=found["range"], context={"diagnostics": []})
+        self.assertTrue(fixes)
+        self.assertTrue(all("changes" in fix["edit"] for fix in fixes))
+        self.assertEqual(client.requests, [])
+        # Without word of the client, the server looks at the disk itself.
+        self.write("robot.yaml", ROBOT)
+        self.write("robot.properties.yaml", PROPERTIES.replace("can_start: DRIVE", "can_start: DIVE"))
+        while not client.findings.get(str(self.properties)):
+            client.receive()
+
+    def test_hints_are_asked_for_again(self):
+        client = self.start()
+        client.open(self.mission)
+        client.settle()
+        client.requests.clear()
+        client.open(self.mission, MISSION + "- start: LOCALIZE\n", 2)
+        client.settle()
+        self.assertEqual(client.requests, [])
+        client.open(self.robot, ROBOT.replace("suitability: 50", "suitability: 60"))
+        client.settle()
+        self.assertEqual({request["method"] for request in client.requests},
+                         {"workspace/inlayHint/refresh", "workspace/codeLens/refresh"})
+
+
 class Findings(LspTest):
     def of_lint(self, folder):
         output = run_cbc("lint", "--format", "json", folder)[1] or '{"files": []}'
@@ -257,6 +310,41 @@ class Findings(LspTest):
         client.settle()
         self.assertIn("LOCALISE", self.messages(client, settings)[0])
 
+    def test_settings_that_are_not_saved(self):
+        client = self.start()
+        client.open(self.folder / ".cbc.yaml", SETTINGS)
+        client.settle()
+        self.assertEqual([found["code"] for found in client.findings[str(self.robot)]], ["can-run-together"])
+        client.close(self.folder / ".cbc.yaml")
+        client.settle()
+        self.assertEqual(self.messages(client, self.robot), [])
+
+    def test_a_catalog_elsewhere(self):
+        elsewhere = pathlib.Path(tempfile.mkdtemp()).resolve()
+        self.addCleanup(shutil.rmtree, elsewhere)
+        robot = elsewhere / "robot.yaml"
+        mission = self.write("far.mission.yaml", MISSION.replace("robot.yaml", str(robot)))
+        client = self.start()
+        client.open(mission)
+        client.settle()
+        self.assertEqual(client.of("inlayHint", mission, range=span(0, 0, 99, 0)), [])
+        for text, has_findings in ((ROBOT, False), (ROBOT.replace("LIDAR", "RADAR"), True), (ROBOT, False)):
+            robot.write_text(text)
+            while bool(self.messages(client, mission)) != has_findings:
+                client.receive()
+        # It is no catalog of the folder, which has one.
+        self.assertEqual(client.of("codeLens", self.write("plain.yaml", MISSION.split("\n", 1)[1])), [])
+
+    def test_a_text_without_a_file(self):
+        client = self.start()
+        name = "untitled:Untitled-1"
+        client.open(name, ROBOT.replace("requires: [{task: LOCALIZE", "requires: [{task: LOCALISE"))
+        client.settle()
+        self.assertEqual([found["code"] for found in client.findings[name]], ["undefined-task"])
+        client.open(name, ROBOT, 2)
+        client.settle()
+        self.assertEqual(self.messages(client, name), [])
+
     def test_folders(self):
         other = pathlib.Path(tempfile.mkdtemp()).resolve()
         self.addCleanup(shutil.rmtree, other)
@@ -277,7 +365,12 @@ class Findings(LspTest):
         for path in texts:
             client.open(path)
         pieces = ["\n", "- ", "{", "}", "[", "]", ": ", "\"", "'", "#", "task", "DRIVE", "é\U0001F422", "\t", "  ", "x"]
-        for version in range(2, int(os.environ.get("CBC_LSP_EDITS", "300"))):
+        edits = int(os.environ.get("CBC_LSP_EDITS", "1000000" if os.environ.get("CBC_NIGHT") else "300"))
+        memory = {}  # KiB, after edits
+        for version in range(2, edits):
+            if version in (edits // 3, edits - 1):
+                memory[version] = int(re.search(r"VmRSS:\s*(\d+)", pathlib.Path(
+                    f"/proc/{client.process.pid}/status").read_text())[1])
             path = draw.choice(list(texts))
             text = texts[path]
             begin = draw.randrange(len(text) + 1)
@@ -301,6 +394,8 @@ class Findings(LspTest):
             path.write_bytes(text.encode())
             client.close(path)
         self.check_equal(client, self.folder)
+        if edits >= 100000:
+            self.assertLess(memory[edits - 1], memory[edits // 3] + 1024)
 
 
 class Names(LspTest):
@@ -324,6 +419,16 @@ class Names(LspTest):
             found = client.at("definition", path, *self.place_of(text, words, behind))
             self.assertEqual((found["uri"], found["range"]["start"]),
                              (uri_of(self.robot), {"line": place[0], "character": place[1]}), words)
+        value = client.at("definition", self.mission, *self.place_of(MISSION, "AIR: dusty", "dusty"))
+        self.assertEqual(value["range"]["start"]["character"], self.place_of(ROBOT, "dusty", "dusty")[1])
+        robot = ROBOT.replace("{task: DRIVE}", "{task: DRIVE, parameters: [{parameter: speed, allowed_values: [0, 3]}]}")
+        mission = MISSION.replace("start: DRIVE", "start: DRIVE\n  parameters: {speed: 2}")
+        client.open(self.robot, robot)
+        client.open(self.mission, mission)
+        for words in ("{speed", "speed: 2"):
+            parameter = client.at("definition", self.mission, *self.place_of(mission, words, words.strip("{")))
+            place = self.place_of(robot, "parameter: speed", "speed")
+            self.assertEqual(parameter["range"]["start"], {"line": place[0], "character": place[1]})
         self.assertEqual(client.at("definition", self.mission, 0, 12)["uri"], uri_of(self.robot))
         self.assertIsNone(client.at("definition", self.mission, 1, 2))
 
@@ -483,6 +588,25 @@ class WholeFiles(LspTest):
         for wrong in ({"command": "cbc.run", "arguments": [words + ["--html", "page.html"]]}, {"command": "rm", "arguments": [["solve"]]}, {"command": "cbc.run", "arguments": [["graph"]]}):
             self.assertIn("error", client.try_ask("workspace/executeCommand", wrong))
 
+    def test_what_runs_ends_with_the_server(self):
+        long = self.write("long.properties.yaml", f"catalog: {SOURCE}/catalogs/hospital.yaml\n"
+                          "assume: {faults: 2}\nproperties:\n- {name: long, can_start: DELIVER}\n")
+        client = self.start()
+        lens = client.of("codeLens", long)[0]["command"]
+        children = pathlib.Path(f"/proc/{client.process.pid}/task")
+        running = lambda: [int(child) for thread in children.iterdir()
+                           for child in (thread / "children").read_text().split()]
+        for _ in range(2):  # the second one takes the place of the first
+            client.ask("workspace/executeCommand", {"command": lens["command"], "arguments": lens["arguments"]})
+        while len(running()) != 1:
+            client.ask("cbc/isIdle", {})
+        (child,) = running()
+        client.ask("shutdown", None)
+        client.tell("exit", None)
+        self.assertEqual(client.process.wait(PATIENCE), 0)
+        self.assertFalse(os.path.exists(f"/proc/{child}"))
+        self.assertFalse([request for request in client.requests if request["method"].startswith("window/")])
+
     def test_lenses_are_confined(self):
         elsewhere = pathlib.Path(tempfile.mkdtemp()).resolve()
         self.addCleanup(shutil.rmtree, elsewhere)
@@ -506,6 +630,22 @@ class WholeFiles(LspTest):
         self.assertIn("Change to 'LOCALIZE'", titles)
         fix = fixes[titles.index("Change to 'LOCALIZE'")]["edit"]["changes"][uri_of(self.robot)]
         self.assertEqual(Names.apply(self, text, fix), ROBOT)
+        for only, is_meant in ((["quickfix"], True), (["refactor", "source.organizeImports"], False)):
+            asked = {"diagnostics": [found], "only": only}
+            self.assertEqual(bool(client.of("codeAction", self.robot, range=found["range"], context=asked)), is_meant)
+
+    def test_older_format(self):
+        old = (SOURCE / "tests" / "golden" / "cases" / "graph_older_format" / "catalog.yaml").read_text()
+        client = self.start()
+        client.open(self.robot, old)
+        client.settle()
+        found = client.findings[str(self.robot)][0]
+        fixes = client.of("codeAction", self.robot, range=found["range"], context={"diagnostics": [found]})
+        fix = next(fix["edit"] for fix in fixes if fix["title"] == "Convert to the present format")
+        converted = Names.apply(self, old, fix["changes"][uri_of(self.robot)])
+        by_command = self.write("old.yaml", old)
+        run_cbc("lint", "--fix", by_command)
+        self.assertEqual(converted, by_command.read_text())
 
     def test_allowing_in_settings(self):
         client = self.start()

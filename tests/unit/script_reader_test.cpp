@@ -8,6 +8,7 @@
 
 #include "core/diagnostic/diagnostic.h"
 #include "core/script/reader.h"
+#include "core/script/script.h"
 #include "core/yaml/document.h"
 #include "runtime/base/text.h"
 #include "unit/compiled_fixture.h"
@@ -73,6 +74,19 @@ TEST(ScriptReader, AScriptMayBeABareListOrJson) {
   EXPECT_EQ(read("[]").reactive_delay, 80'000);
   EXPECT_TRUE(read("[]").timeouts);
   EXPECT_TRUE(read("events: []").steps.empty());
+}
+
+TEST(ScriptReader, WhatIsWrittenIsReadAgain) {
+  const std::string events = R"(- {at: 0, start: "HOVER", priority: 3, parameters: {"x":"5"}}
+- {at: 0, fault: "HOVER_PID"}
+- {at: 1.5, finish: {task: "HOVER"}, cause: process_failure}
+- {at: 2, finish: "HOVER_MPC", cause: goal_achieved}
+- {at: 2, situation: {"HOVER_PID": false}}
+- {at: 2, repair: "HOVER_PID"}
+- {at: 3, expect: {running: {"HOVER": "HOVER_PID"}}}
+- {at: 4, stop: "HOVER"}
+)";
+  EXPECT_EQ(write_script(catalog(), read(events), ""), "events:\n" + events);
 }
 
 TEST(ScriptReader, NullIsAbsent) {

@@ -72,7 +72,9 @@ std::string step_entry(const CompiledCatalog& catalog, const Step& step) {
       text = in_quotes(catalog.task_names[step.subject]);
       break;
     case VerbForm::SubjectKind::behavior:
-      text = in_quotes(catalog.behavior_names[step.subject]);
+      text = step.is_by_task
+                 ? fmt::format("{{task: {}}}", in_quotes(catalog.task_names[step.subject]))
+                 : in_quotes(catalog.behavior_names[step.subject]);
       break;
   }
   text = fmt::format("{}: {}", form.name, text);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
@@ -276,7 +277,8 @@ std::string end_of(int status) {
 
 }  // namespace
 
-Filtered run_filter(const std::vector<std::string>& command, std::string_view input) {
+Filtered run_filter(const std::vector<std::string>& command, std::string_view input,
+                    const std::function<bool()>& is_stopped) {
   // Files in memory, of which neither side waits for the other.
   const auto fail = [] { return Filtered{true, false, {}, reason()}; };
   std::array<Descriptor, 3> streams;
@@ -291,8 +293,19 @@ Filtered run_filter(const std::vector<std::string>& command, std::string_view in
     return {false, false, {}, reason(error)};
   }
   int status = 0;
-  while (waitpid(process, &status, 0) < 0) {
-    if (errno != EINTR) return fail();
+  bool is_killed = false;
+  for (;;) {
+    const bool may_stop = is_stopped != nullptr && !is_killed;
+    const pid_t ended = waitpid(process, &status, may_stop ? WNOHANG : 0);
+    if (ended > 0) break;
+    if (ended < 0 && errno != EINTR) return fail();
+    if (!may_stop) continue;
+    is_killed = is_stopped();
+    if (is_killed) {
+      kill(process, SIGKILL);
+    } else {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
   }
   Filtered result;
   result.is_found = true;

@@ -45,8 +45,10 @@ struct Filtered {
   std::string error_output;  ///< its standard error, or why it could not be run, or how it ended
 };
 
-/// Runs a program, found by PATH, with a text as standard input. No shell is involved.
-[[nodiscard]] Filtered run_filter(const std::vector<std::string>& command, std::string_view input);
+/// Runs a program, found by PATH, with a text as standard input. No shell is involved. Once
+/// `is_stopped` holds, which is asked every 20 ms, the program is ended.
+[[nodiscard]] Filtered run_filter(const std::vector<std::string>& command, std::string_view input,
+                                  const std::function<bool()>& is_stopped = nullptr);
 
 /// A C stream that writes to memory.
 class MemoryFile {

@@ -6,17 +6,14 @@
 #include <string>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
-
 #include "core/catalog/name_place.h"
+#include "lsp/protocol/client.h"
 #include "lsp/protocol/text.h"
 #include "lsp/workspace/workspace.h"
 
 // What the server answers, as the protocol wants it. Nothing here changes a file.
 
 namespace cbc::lsp {
-
-using Json = nlohmann::json;
 
 /// A place in a file that a request is about. What is known of the file is of its present text.
 struct Cursor {
@@ -44,7 +41,7 @@ struct Refusal : std::runtime_error {
 // What may be written at a place, and what stands there means: of the text alone, with the names
 // that the catalog had last.
 
-[[nodiscard]] Json list_completions(const Cursor& cursor);
+[[nodiscard]] Json list_completions(const Cursor& cursor, const Client& client);
 [[nodiscard]] Json find_hover(const Cursor& cursor);
 
 // Names.
@@ -64,11 +61,11 @@ struct NameAt {
 [[nodiscard]] Json find_highlights(const Cursor& cursor);
 [[nodiscard]] Json prepare_rename(const Cursor& cursor);
 /// A workspace edit. Throws a Refusal.
-[[nodiscard]] Json rename(const Cursor& cursor, const std::string& new_name);
+[[nodiscard]] Json rename(const Cursor& cursor, const std::string& new_name, const Client& client);
 
 // Of a whole file.
 
-[[nodiscard]] Json list_symbols(const File& file);
+[[nodiscard]] Json list_symbols(const File& file, const Client& client);
 [[nodiscard]] Json list_folds(const File& file);
 /// What can be run on the command line about a file: its mission, the reason for what is expected,
 /// the proof of its properties. The command `cbc.run` runs the words of its argument.
@@ -76,7 +73,7 @@ struct NameAt {
 
 /// Quick fixes of the findings in a piece of a file.
 [[nodiscard]] Json list_fixes(const Workspace& workspace, const File& file, std::size_t begin,
-                              std::size_t end);
+                              std::size_t end, const Client& client);
 
 /// What each event of a mission does, and whether its expectations hold.
 [[nodiscard]] Json list_hints(const Workspace& workspace, const File& file, std::size_t begin,

@@ -94,10 +94,30 @@ class SymbolList {
 
 }  // namespace
 
-Json list_symbols(const File& file) {
+namespace {
+
+/// Without a tree, each says where it stands.
+void flatten(const Json& symbols, const std::string& container, const std::string& uri,
+             Json& flat) {
+  for (const Json& symbol : symbols) {
+    flat.push_back({{"name", symbol.at("name")},
+                    {"kind", symbol.at("kind")},
+                    {"location", {{"uri", uri}, {"range", symbol.at("range")}}}});
+    if (!container.empty()) flat.back()["containerName"] = container;
+    if (symbol.contains("children")) flatten(symbol.at("children"), symbol.at("name"), uri, flat);
+  }
+}
+
+}  // namespace
+
+Json list_symbols(const File& file, const Client& client) {
   if (file.input == nullptr || file.input->document == nullptr) return Json::array();
   if (file.kind == cli::FileKind::other) return Json::array();
-  return SymbolList(file).release();
+  Json symbols = SymbolList(file).release();
+  if (client.has_symbol_trees) return symbols;
+  Json flat = Json::array();
+  flatten(symbols, "", file.uri, flat);
+  return flat;
 }
 
 /// By indentation, so that it does not matter whether the text parses.

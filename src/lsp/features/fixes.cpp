@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "core/catalog/older_format.h"
 #include "core/catalog/renaming.h"
 #include "core/check/check.h"
 #include "core/check/controls.h"
@@ -19,13 +20,15 @@ namespace {
 
 class FixList {
  public:
-  FixList(const Workspace& workspace, const File& file, std::size_t begin, std::size_t end)
-      : workspace_(workspace), file_(file), text_(file.text->content()) {
+  FixList(const Workspace& workspace, const File& file, std::size_t begin, std::size_t end,
+          const Client& client)
+      : workspace_(workspace), client_(client), file_(file), text_(file.text->content()) {
     for (const Diagnostic& finding : file.findings) {
       const std::size_t from = file.text->offset_of(finding.range.begin);
       const std::size_t to = file.text->offset_of(finding.range.end);
       if (to < begin || end < from) continue;
       add_fix(finding);
+      add_conversion(finding);
       add_suggestion(finding, from, to);
       add_allowance(finding, from);
       add_setting(finding);
@@ -60,6 +63,17 @@ class FixList {
     if (!fixed.mended.empty()) {
       add(fmt::format("Fix: {}", finding.message), finding, fixed.text, true);
     }
+  }
+
+  /// A catalog of an older format, as `cbc lint --fix` converts it.
+  void add_conversion(const Diagnostic& finding) {
+    const bool is_meant = file_.kind == cli::FileKind::catalog && file_.is_parsed &&
+                          file_.input->document != nullptr &&
+                          finding.rule == rule::older_format.name;
+    if (!is_meant || !find_older_format(file_.input->document->root())) return;
+    const Conversion conversion = convert_older_format(*file_.input->document, text_);
+    if (conversion.obstacle) return;
+    add("Convert to the present format", finding, conversion.text, true);
   }
 
   void add_suggestion(const Diagnostic& finding, std::size_t from, std::size_t to) {
@@ -126,14 +140,14 @@ class FixList {
     if (is_fixed(finding) || file_.kind == cli::FileKind::settings) return;
     const std::string title = fmt::format("Allow {} in {}", finding.rule, settings_file_name);
     const std::string rule(finding.rule);
-    const std::optional<std::string> path = find_settings_file(file_.path);
+    const std::optional<std::string> path = workspace_.settings_file_of(file_.path);
     const File* const settings = path ? workspace_.find(*path) : nullptr;
     if (settings != nullptr && settings->text != nullptr) {
       if (const auto changed = with_rule(*settings, rule)) {
         add_edit(title, finding,
                  Json{{"changes", {{settings->uri, edits_json(*settings, *changed)}}}}, false);
       }
-    } else if (!path && !file_.folder.empty()) {
+    } else if (!path && !file_.folder.empty() && client_.can_create_files) {
       const std::string uri =
           uri_of_path((std::filesystem::path(file_.folder) / settings_file_name).string());
       Json edits = {
@@ -181,6 +195,7 @@ class FixList {
   }
 
   const Workspace& workspace_;
+  const Client& client_;
   const File& file_;
   const std::string_view text_;
   Json fixes_ = Json::array();
@@ -188,9 +203,10 @@ class FixList {
 
 }  // namespace
 
-Json list_fixes(const Workspace& workspace, const File& file, std::size_t begin, std::size_t end) {
+Json list_fixes(const Workspace& workspace, const File& file, std::size_t begin, std::size_t end,
+                const Client& client) {
   if (file.text == nullptr) return Json::array();
-  return FixList(workspace, file, begin, end).release();
+  return FixList(workspace, file, begin, end, client).release();
 }
 
 }  // namespace cbc::lsp

@@ -32,7 +32,7 @@ int kind_number(Completion::Kind kind) {
 
 }  // namespace
 
-Json list_completions(const Cursor& cursor) {
+Json list_completions(const Cursor& cursor, const Client& client) {
   const std::string& text = cursor.file.text->content();
   const Context context = context_at(text, cursor.offset);
   const std::size_t begin = std::min(context.begin, cursor.offset);
@@ -45,6 +45,7 @@ Json list_completions(const Cursor& cursor) {
   const bool is_quoted = replaced.starts_with('"') || replaced.starts_with('\'');
   for (const Completion& found :
        complete(context, cursor.file.kind, cursor.workspace.known_catalog(cursor.file))) {
+    if (found.is_snippet && !client.has_snippets) continue;
     Json item = {
         {"label", found.label},
         {"kind", kind_number(found.kind)},

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "core/catalog/renaming.h"
-#include "core/check/controls.h"
 #include "lsp/features/features.h"
 #include "lsp/language/context.h"
 #include "lsp/language/places.h"
@@ -31,7 +30,7 @@ std::vector<NameAt> names_in(const File& file) {
 /// What has names of the catalog: itself, what is about it, and its settings.
 std::vector<const File*> files_with_names(const Workspace& workspace, const File& catalog) {
   std::vector<const File*> files;
-  const std::optional<std::string> settings = find_settings_file(catalog.path);
+  const std::optional<std::string> settings = workspace.settings_file_of(catalog.path);
   for (const auto& [path, file] : workspace.files()) {
     const bool is_settings = file.kind == cli::FileKind::settings && settings == path;
     if (file.text != nullptr && (is_settings || workspace.catalog_of(file) == &catalog)) {
@@ -46,7 +45,8 @@ std::vector<const File*> files_with_names(const Workspace& workspace, const File
 const File* catalog_with(const Cursor& cursor, const NameAt& name) {
   if (cursor.file.kind != cli::FileKind::settings) return cursor.workspace.catalog_of(cursor.file);
   for (const auto& [path, file] : cursor.workspace.files()) {
-    if (file.kind != cli::FileKind::catalog || find_settings_file(path) != cursor.file.path) {
+    const bool is_catalog = file.kind == cli::FileKind::catalog;
+    if (!is_catalog || cursor.workspace.settings_file_of(path) != cursor.file.path) {
       continue;
     }
     for (const NameAt& other : names_in(file)) {
@@ -113,6 +113,48 @@ std::optional<NameAt> find_name(const Cursor& cursor) {
   return NameAt{*kind, context.text, context.begin, context.end};
 }
 
+namespace {
+
+/// Where a catalog has a value of a variable; "true" of one without values is the variable itself.
+std::optional<Range> place_of_value(const File& catalog, const std::string& variable,
+                                    const std::string& value) {
+  const auto named = place_of_name(catalog.checked->reading.catalog, NameKind::variable, variable);
+  if (!named) return std::nullopt;
+  const yaml::Node* const situation = catalog.input->document->root().find("situation");
+  if (situation == nullptr) return named;
+  for (const yaml::Node* const item : situation->items) {
+    const yaml::Node* const name = item->find("variable");
+    const yaml::Node* const values = item->find("values");
+    if (name == nullptr || name->text != variable || values == nullptr) continue;
+    for (const yaml::Node* const one : values->items) {
+      if (one->text == value) return one->range;
+    }
+  }
+  return named;
+}
+
+/// Of what is no name of the whole catalog: a value of a variable, a parameter of a task.
+std::optional<Range> place_of_detail(const Context& context, const File& file,
+                                     const File& catalog) {
+  if (catalog.checked == nullptr || catalog.input->document == nullptr) return std::nullopt;
+  const Catalog& known = catalog.checked->reading.catalog;
+  const auto owner = owner_at(context);
+  if (owner && find_variable(&known, owner->key) != nullptr) {
+    const auto names = names_of_keys(owner->path, file.kind);
+    if (names == Names::variable || names == Names::part) {
+      return place_of_value(catalog, owner->key, context.text);
+    }
+  }
+  const auto& path = context.is_key ? context.path : owner ? owner->path : context.path;
+  const std::string& wanted = context.is_key || !owner ? context.text : owner->key;
+  for (const Parameter& parameter : parameters_at(context, path, file.kind, &known)) {
+    if (parameter.name == wanted) return parameter.range;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 Json find_definition(const Cursor& cursor) {
   if (cursor.file.text == nullptr) return nullptr;
   const Context context = context_at(cursor.file.text->content(), cursor.offset);
@@ -121,7 +163,15 @@ Json find_definition(const Cursor& cursor) {
     if (catalog != nullptr && catalog->text != nullptr) return location_json(*catalog, 0, 0);
   }
   const std::optional<NameAt> name = find_name(cursor);
-  if (!name) return nullptr;
+  if (!name) {
+    const File* const catalog = cursor.workspace.catalog_of(cursor.file);
+    const auto place = catalog == nullptr || context.text.empty()
+                           ? std::nullopt
+                           : place_of_detail(context, cursor.file, *catalog);
+    if (!place) return nullptr;
+    return location_json(*catalog, catalog->text->offset_of(place->begin),
+                         catalog->text->offset_of(place->end));
+  }
   const auto found = find_defined(cursor, *name);
   return found ? location_json(*found->file, found->begin, found->end) : Json();
 }
@@ -159,7 +209,7 @@ Json prepare_rename(const Cursor& cursor) {
           {"placeholder", name->name}};
 }
 
-Json rename(const Cursor& cursor, const std::string& new_name) {
+Json rename(const Cursor& cursor, const std::string& new_name, const Client& client) {
   const std::optional<NameAt> name = find_name(cursor);
   const File* const catalog = name ? catalog_with(cursor, *name) : nullptr;
   if (catalog == nullptr) throw Refusal("there is no name of a task, behavior or variable here");
@@ -191,7 +241,7 @@ Json rename(const Cursor& cursor, const std::string& new_name) {
     if (file->version) document["version"] = *file->version;
     changes.push_back({{"textDocument", document}, {"edits", edits_json(*file, renamed.text)}});
   }
-  return changes;
+  return workspace_edit(client, std::move(changes));
 }
 
 }  // namespace cbc::lsp

@@ -257,7 +257,7 @@ class Completer {
       result_.push_back({Kind::snippet, "task: TASK", "whatever performs the task", "",
                          "{task: ${1:TASK}}", true});
     }
-    for (const Parameter& parameter : parameters_at(owner.path)) {
+    for (const Parameter& parameter : parameters_at(context_, owner.path, kind_, catalog_)) {
       if (parameter.name != owner.key || range_of(parameter)) continue;
       if (parameter.allowed_is_list) {
         for (const std::string& value : parameter.allowed_values)
@@ -269,19 +269,8 @@ class Completer {
     }
   }
 
-  /// Those of the task of a start, in the mapping `parameters` of its event.
-  [[nodiscard]] std::vector<Parameter> parameters_at(const std::vector<std::string>& path) const {
-    if (kind_ != FileKind::script) return {};
-    if (normal_path(path, kind_) != std::vector<std::string>{"events", "", "parameters"}) return {};
-    for (const auto& [key, value] : context_.outer) {
-      const Task* const task = key == "start" ? find_task(catalog_, value) : nullptr;
-      if (task != nullptr) return task->parameters;
-    }
-    return {};
-  }
-
   void add_parameters() {
-    for (const Parameter& parameter : parameters_at(context_.path)) {
+    for (const Parameter& parameter : parameters_at(context_, context_.path, kind_, catalog_)) {
       if (!has_sibling(parameter.name)) add(Kind::key, parameter.name, describe_allowed(parameter));
     }
   }

@@ -163,6 +163,17 @@ std::optional<NameKind> name_kind_at(const Context& context, FileKind kind,
   return std::nullopt;
 }
 
+std::vector<Parameter> parameters_at(const Context& context, const Path& path, FileKind kind,
+                                     const Catalog* catalog) {
+  if (kind != FileKind::script) return {};
+  if (normal_path(path, kind) != Path{"events", "", "parameters"}) return {};
+  for (const auto& [key, value] : context.outer) {
+    const Task* const task = key == "start" ? find_task(catalog, value) : nullptr;
+    if (task != nullptr) return task->parameters;
+  }
+  return {};
+}
+
 const Task* find_task(const Catalog* catalog, const std::string& name) {
   return catalog == nullptr ? nullptr : find_in(catalog->tasks, name);
 }

@@ -41,6 +41,12 @@ struct Owner {
 [[nodiscard]] std::optional<NameKind> name_kind_at(const Context& context, cli::FileKind kind,
                                                    const Catalog* catalog);
 
+/// The parameters of the task of a start whose mapping `parameters` has this path, that of the
+/// cursor or of a value in it.
+[[nodiscard]] std::vector<Parameter> parameters_at(const Context& context,
+                                                   const std::vector<std::string>& path,
+                                                   cli::FileKind kind, const Catalog* catalog);
+
 /// The thing of a name; null if there is none.
 [[nodiscard]] const Task* find_task(const Catalog* catalog, const std::string& name);
 [[nodiscard]] const Behavior* find_behavior(const Catalog* catalog, const std::string& name);

@@ -28,6 +28,7 @@ Text::Text(std::string content, Encoding encoding)
     : content_(std::move(content)),
       encoding_(encoding),
       lines_(begins_of_lines(content_)),
+      marks_(marks_of_lines()),
       positions_(utf8::without_byte_order_mark(content_)) {}
 
 /// Without the line break.
@@ -35,6 +36,37 @@ std::size_t Text::end_of_line(std::size_t line) const {
   std::size_t end = line + 1 < lines_.size() ? lines_[line + 1] : content_.size();
   while (end > lines_[line] && (content_[end - 1] == '\n' || content_[end - 1] == '\r')) --end;
   return end;
+}
+
+/// A file of JSON may be one line of any length; what is shorter than this needs no mark.
+std::vector<Text::Mark> Text::marks_of_lines() const {
+  constexpr std::size_t distance = 1024;
+  std::vector<Mark> marks;
+  if (encoding_ == Encoding::utf8) return marks;
+  for (std::size_t line = 0; line < lines_.size(); ++line) {
+    const std::size_t end = end_of_line(line);
+    Mark at{lines_[line], 0};
+    for (std::size_t next = at.offset + distance; next < end; next = at.offset + distance) {
+      while (at.offset < next) {
+        const utf8::Decoded decoded = utf8::decode(content_, at.offset);
+        at.units += units_of(decoded);
+        at.offset += decoded.bytes;
+      }
+      marks.push_back(at);
+    }
+  }
+  return marks;
+}
+
+/// The last one in a line that is not behind something, or else the begin of the line.
+template <typename IsBehind>
+Text::Mark Text::last_mark(std::size_t line, const IsBehind& is_behind) const {
+  const std::size_t end = line + 1 < lines_.size() ? lines_[line + 1] : content_.size() + 1;
+  const auto next = std::partition_point(marks_.begin(), marks_.end(), [&](const Mark& mark) {
+    return mark.offset < lines_[line] || (mark.offset < end && !is_behind(mark));
+  });
+  if (next == marks_.begin() || (next - 1)->offset < lines_[line]) return {lines_[line], 0};
+  return *(next - 1);
 }
 
 std::size_t Text::offset_of(const Place& place) const {
@@ -46,7 +78,10 @@ std::size_t Text::offset_of(const Place& place) const {
     while (at > lines_[place.line] && at < end && is_continuation(content_[at])) --at;
     return at;
   }
-  for (std::size_t left = place.character; at < end;) {
+  const Mark mark =
+      last_mark(place.line, [&](const Mark& other) { return other.units > place.character; });
+  at = mark.offset;
+  for (std::size_t left = place.character - mark.units; at < end;) {
     const utf8::Decoded decoded = utf8::decode(content_, at);
     if (left < units_of(decoded)) break;
     left -= units_of(decoded);
@@ -63,7 +98,10 @@ Place Text::place_of(std::size_t offset) const {
   if (encoding_ == Encoding::utf8) {
     character = offset - lines_[line];
   } else {
-    for (std::size_t at = lines_[line]; at < offset;) {
+    const Mark mark =
+        last_mark(line, [offset](const Mark& other) { return other.offset > offset; });
+    character = mark.units;
+    for (std::size_t at = mark.offset; at < offset;) {
       const utf8::Decoded decoded = utf8::decode(content_, at);
       if (at + decoded.bytes > offset) break;
       character += units_of(decoded);

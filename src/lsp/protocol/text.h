@@ -46,11 +46,21 @@ class Text {
   [[nodiscard]] PlaceRange range_of(const Range& range) const;
 
  private:
+  /// A character in a long line, where counting can begin.
+  struct Mark {
+    std::size_t offset = 0;
+    std::size_t units = 0;  ///< of UTF-16, from the begin of the line
+  };
+
   [[nodiscard]] std::size_t end_of_line(std::size_t line) const;
+  [[nodiscard]] std::vector<Mark> marks_of_lines() const;
+  template <typename IsBehind>
+  [[nodiscard]] Mark last_mark(std::size_t line, const IsBehind& is_behind) const;
 
   std::string content_;
   Encoding encoding_;
   std::vector<std::size_t> lines_;  ///< where each begins
+  std::vector<Mark> marks_;         ///< in the order of the text
   PositionMap positions_;           ///< as findings count them
 };
 

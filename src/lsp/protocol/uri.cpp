@@ -8,6 +8,7 @@
 namespace cbc::lsp {
 
 std::optional<std::string> path_of_uri(std::string_view uri) {
+  if (uri.starts_with("untitled:")) return std::string(uri);
   constexpr std::string_view scheme = "file://";
   if (!uri.starts_with(scheme)) return std::nullopt;
   uri.remove_prefix(scheme.size());

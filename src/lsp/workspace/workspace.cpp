@@ -36,6 +36,12 @@ std::optional<FileKind> kind_of(const cli::InputFile& input) {
   return input.what.kind;
 }
 
+/// Whether a client tells of changes of a file, as it was asked to.
+bool is_watched(const std::string& path, const std::string& folder) {
+  const std::string extension = fs::path(path).extension().string();
+  return !folder.empty() && (extension == ".yaml" || extension == ".yml");
+}
+
 /// Whether it is in a folder that is passed over. Settings are hidden themselves.
 bool is_hidden(const std::string& path, const std::string& folder) {
   if (folder.empty()) return false;
@@ -149,6 +155,25 @@ void Workspace::reread(const std::string& path) {
   if (file.text == nullptr || file.text->content() != *text) load(file, std::move(*text));
 }
 
+void Workspace::look_at_disk(bool at_all) {
+  std::set<std::string> paths;
+  for (const auto& [path, file] : files_) {
+    if (!file.version && (at_all || !is_watched(path, file.folder))) paths.insert(path);
+    const std::string& named = file.catalog;
+    const bool is_new = !named.empty() && !files_.contains(named);
+    if (is_new && (at_all || !is_watched(named, find_folder(named)))) paths.insert(named);
+  }
+  for (const std::string& path : paths) {
+    std::error_code error;
+    std::optional<fs::file_time_type> time = fs::last_write_time(path, error);
+    if (error) time.reset();
+    const auto [known, is_new] = times_on_disk_.try_emplace(path, time);
+    if (!is_new && known->second == time) continue;
+    known->second = time;
+    reread(path);
+  }
+}
+
 /// It stays among the files until it is checked, so that its findings go.
 void Workspace::forget(const std::string& path) {
   const auto found = files_.find(path);
@@ -208,7 +233,7 @@ void Workspace::mark_about() {
     if (is_touched && file.is_about_catalog()) mark(path);
   }
   for (const std::string& catalog : changed_catalogs_) {
-    const std::optional<std::string> settings = find_settings_file(catalog);
+    const std::optional<std::string> settings = settings_file_of(catalog);
     if (settings && files_.contains(*settings)) mark(*settings);
   }
   has_other_catalogs_ = false;
@@ -302,7 +327,8 @@ std::string Workspace::find_catalog_of(const File& file) {
   const auto [catalogs, is_new] = catalogs_.try_emplace(file.folder);
   if (is_new) {
     for (const auto& [path, other] : files_) {
-      const bool is_in_folder = other.folder == file.folder;
+      // Of other names, a file is only what another one names.
+      const bool is_in_folder = other.folder == file.folder && is_watched(path, other.folder);
       if (is_in_folder && other.kind == FileKind::catalog) catalogs->second.add(path);
     }
   }
@@ -331,7 +357,7 @@ void Workspace::check_settings(File& file) {
     std::set<std::string> tasks;
     bool has_all = true;
     for (const auto& [path, other] : files_) {
-      if (other.kind != FileKind::catalog || find_settings_file(path) != file.path) continue;
+      if (other.kind != FileKind::catalog || settings_file_of(path) != file.path) continue;
       const bool has_tasks =
           other.checked != nullptr && !other.checked->reading.catalog.tasks.empty();
       has_all = has_all && has_tasks;
@@ -350,8 +376,18 @@ void Workspace::check_settings(File& file) {
   file.findings = diagnostics.release();
 }
 
+std::optional<std::string> Workspace::settings_file_of(const std::string& path) const {
+  std::optional<std::string> nearest = find_settings_file(path);
+  for (const auto& [other, file] : files_) {
+    const bool is_meant = file.version && file.text != nullptr && is_settings_file(other) &&
+                          is_below(path, folder_of(other));
+    if (is_meant && (!nearest || other.size() > nearest->size())) nearest = other;
+  }
+  return nearest;
+}
+
 std::optional<SeveritySettings> Workspace::settings_of(const std::string& path) {
-  const std::optional<std::string> settings = find_settings_file(path);
+  const std::optional<std::string> settings = settings_file_of(path);
   if (!settings || cli::find_refusal(*settings)) return SeveritySettings();
   const auto [entry, is_new] = settings_.try_emplace(*settings);
   if (!is_new) return entry->second;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -65,6 +66,9 @@ class Workspace {
   void close(const std::string& path);
   /// What is on the disk may have changed.
   void reread(const std::string& path);
+  /// Rereads what has changed on the disk of which the client does not tell: what is outside of the
+  /// folders or has a name that no client watches; with `at_all`, everything.
+  void look_at_disk(bool at_all);
 
   /// Null: not known. All but the text may be that of an older text: see check_now.
   [[nodiscard]] const File* find(const std::string& path) const;
@@ -88,6 +92,8 @@ class Workspace {
   /// Adds these, found after `check`. Returns the file, or null if it was checked again since.
   [[nodiscard]] const File* add_proofs(const std::string& path, std::uint64_t check,
                                        CheckedCatalog proved);
+  /// The settings file that applies to a file, also one that the client has not saved yet.
+  [[nodiscard]] std::optional<std::string> settings_file_of(const std::string& path) const;
   /// The settings that apply to a file; empty if they cannot be used.
   [[nodiscard]] std::optional<SeveritySettings> settings_of(const std::string& path);
 
@@ -112,6 +118,8 @@ class Workspace {
   cli::FileSet reader_{cli::FileSet::Findings::dropped};
   std::set<std::string> folders_;
   std::map<std::string, File> files_;
+  /// Of files that are looked at; empty: there is no such file.
+  std::map<std::string, std::optional<std::filesystem::file_time_type>> times_on_disk_;
   std::set<std::string> to_check_;
   std::set<std::string> checked_;  ///< and not yet taken by next_checked
   std::set<std::string> changed_catalogs_;
