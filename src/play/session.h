@@ -86,7 +86,7 @@ class Session {
   void tell_present(JsonWriter& answer) const;
   void tell_news(std::uint64_t first, JsonWriter& answer);
   [[nodiscard]] std::string what_if_report(const std::vector<Step>& steps, bool has_moves) const;
-  [[nodiscard]] std::uint64_t decider_of(TaskId task, std::uint64_t index) const;
+  [[nodiscard]] std::size_t decider_of(TaskId task, std::size_t index) const;
 
   std::shared_ptr<const CheckedCatalog> source_;
   const CompiledCatalog* catalog_ = nullptr;  ///< null: no session
