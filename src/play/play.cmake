@@ -15,6 +15,8 @@ target_link_options(
   "SHELL:-s TOTAL_STACK=8MB" # as that of a native program: texts may be nested deeply
   "SHELL:-s FORCE_FILESYSTEM=1"
   "SHELL:-s ENVIRONMENT=web,worker,node"
+  "SHELL:-s NODEJS_CATCH_EXIT=0" # each instance would add handlers
+  "SHELL:-s NODEJS_CATCH_REJECTION=0"
   "SHELL:-s EXPORTED_RUNTIME_METHODS=FS,callMain,ccall,ENV")
 # Debian's Emscripten needs a package of Debian, which a Node.js of others does not find.
 set_target_properties(cbc_play PROPERTIES RULE_LAUNCH_LINK "${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs")

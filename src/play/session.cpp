@@ -248,7 +248,7 @@ void Session::take(Step step, bool is_clock) {
   entry->step.time = std::max(entry->step.time.value_or(0), next_time());
   entry->is_clock = is_clock;
   const std::vector<Happened> events = events_;
-  events_.resize(present().events);
+  events_.resize(static_cast<std::size_t>(present().events));
   try {
     run(*entry);
   } catch (...) {
@@ -316,8 +316,8 @@ void Session::advance(const JsonValue& request, JsonWriter& answer) {
 }
 
 void Session::go_to(const JsonValue& request, JsonWriter& answer) {
-  const std::uint64_t most = entries_.empty() ? 0 : entries_.back()->after.events;
-  const auto index = request["index"].integer<std::uint64_t>(0, most);
+  const auto most = static_cast<std::size_t>(entries_.empty() ? 0 : entries_.back()->after.events);
+  const auto index = request["index"].integer<std::size_t>(0, most);
   const auto entry = std::lower_bound(
       entries_.begin(), entries_.end(), index,
       [](const auto& one, std::uint64_t number) { return one->after.events < number; });
@@ -387,7 +387,7 @@ void Session::tell_state(JsonWriter& answer) {
 
 /// The last event up to this one that decided about the group of a task, or that asked for the task
 /// and was rejected; 0: none.
-std::uint64_t Session::decider_of(TaskId task, std::uint64_t index) const {
+std::size_t Session::decider_of(TaskId task, std::size_t index) const {
   const GroupId group = catalog_->tasks[task].group;
   for (; index > 0; --index) {
     const Happened& event = events_[index - 1];
@@ -399,8 +399,8 @@ std::uint64_t Session::decider_of(TaskId task, std::uint64_t index) const {
 void Session::why(const JsonValue& request, JsonWriter& answer) {
   const std::string name = request["subject"].text();
   const auto given = request.find("index");
-  const std::uint64_t last = present().events;
-  const std::uint64_t index = given ? given->integer<std::uint64_t>(0, last) : last;
+  const auto last = static_cast<std::size_t>(present().events);
+  const std::size_t index = given ? given->integer<std::size_t>(0, last) : last;
   const auto task = catalog_->find_task(name);
   const auto behavior = catalog_->find_behavior(name);
   if (!task && !behavior) {
@@ -409,7 +409,7 @@ void Session::why(const JsonValue& request, JsonWriter& answer) {
   const TaskId of =
       task ? catalog_->task_ids[*task]
            : catalog_->task_of(catalog_->performs[catalog_->behavior_ids[*behavior]].front());
-  const std::uint64_t wanted = decider_of(of, index);
+  const std::size_t wanted = decider_of(of, index);
   if (wanted == 0) return answer.write_json("event", "null");
   std::size_t place = 0;
   while (place < position_ && entries_[place]->after.events < wanted) ++place;

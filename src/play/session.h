@@ -33,7 +33,8 @@ namespace cbc::play {
 ///   open     the same, and begins a session unless there are errors: also `catalog` and `begin`,
 ///            as the page of --html gets them
 ///   load     mission (its text), name: begins anew with all its entries: `lint`, and unless there
-///            are errors `begin` and what an apply answers
+///            are errors `begin` and what an apply answers; if the clock runs away in it, what came
+///            before stays
 ///   apply    event (an entry of a script): `index` and `time` after it, `first` (the index of the
 ///            first new event; later ones of before are gone), `events` and `failures` as the page
 ///            gets them, `warnings`
@@ -86,7 +87,7 @@ class Session {
   void tell_present(JsonWriter& answer) const;
   void tell_news(std::uint64_t first, JsonWriter& answer);
   [[nodiscard]] std::string what_if_report(const std::vector<Step>& steps, bool has_moves) const;
-  [[nodiscard]] std::uint64_t decider_of(TaskId task, std::uint64_t index) const;
+  [[nodiscard]] std::size_t decider_of(TaskId task, std::size_t index) const;
 
   std::shared_ptr<const CheckedCatalog> source_;
   const CompiledCatalog* catalog_ = nullptr;  ///< null: no session
