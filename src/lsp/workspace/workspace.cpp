@@ -164,9 +164,9 @@ void Workspace::look_at_disk(bool at_all) {
     if (is_new && (at_all || !is_watched(named, find_folder(named)))) paths.insert(named);
   }
   for (const std::string& path : paths) {
-    std::error_code error;
-    std::optional<fs::file_time_type> time = fs::last_write_time(path, error);
-    if (error) time.reset();
+    std::error_code fault;
+    std::optional<fs::file_time_type> time = fs::last_write_time(path, fault);
+    if (fault) time.reset();
     const auto [known, is_new] = times_on_disk_.try_emplace(path, time);
     if (!is_new && known->second == time) continue;
     known->second = time;
