@@ -1,7 +1,19 @@
 # The program for browsers: play.js and play.wasm, in the folder of the build.
 
 file(GLOB play_sources CONFIGURE_DEPENDS src/play/*.cpp)
-add_executable(cbc_play src/main.cpp ${play_sources})
+# The commands that a page has a use for: what is not named is not linked.
+set(play_folder "${CMAKE_CURRENT_BINARY_DIR}/play_program")
+set(rows "")
+foreach(command lint compile solve verify graph)
+  string(APPEND rows "row(${command}) ")
+endforeach()
+file(READ src/commands.h commands_header)
+string(REGEX REPLACE "#define CBC_COMMANDS[^\n]*\n(  row[^\n]*\n)+" "#define CBC_COMMANDS(row) ${rows}\n" commands_header
+       "${commands_header}")
+file(CONFIGURE OUTPUT "${play_folder}/commands.h" CONTENT "${commands_header}" @ONLY)
+configure_file(src/main.cpp "${play_folder}/main.cpp" COPYONLY)
+add_executable(cbc_play "${play_folder}/main.cpp" ${play_sources})
+target_include_directories(cbc_play PRIVATE src)
 set_target_properties(cbc_play PROPERTIES OUTPUT_NAME play)
 target_link_libraries(cbc_play PRIVATE cbc_program nlohmann_json::nlohmann_json ${yaml_cpp})
 target_link_options(

@@ -79,7 +79,7 @@ class Simulation {
     if (first > run.size) {
       this.page.growRun(events, failures);
     } else {
-      const kept = run.data.events.slice(0, first - 1);
+      const kept = run.events.slice(0, first - 1);
       const keptFailures = run.data.expectations.failures.filter((failure) => failure.index < first);
       this.showRun(run.begin, [...kept, ...events], [...keptFailures, ...failures]);
     }
