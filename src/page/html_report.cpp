@@ -17,11 +17,10 @@
 #include "page_files.h"
 
 namespace cbc {
-namespace {
 
-/// What the picture needs of a catalog: tasks, situation variables and behaviors in catalog order,
-/// suitabilities in percent.
-void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
+std::string catalog_of_page(const CompiledCatalog& catalog) {
+  std::string text;
+  JsonWriter json(text);
   const auto write_task = [&](TaskId task) { json.write(catalog.name_of_task(task)); };
   json.open('{');
   json.write_list("tasks", catalog.task_names);
@@ -55,7 +54,11 @@ void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
   }
   json.close(']');
   json.close('}');
+  json.flush();
+  return text;
 }
+
+namespace {
 
 /// Failed expectations that a full page has of a run: their messages stand without their events.
 constexpr std::uint64_t most_later_failures = 100;
@@ -87,8 +90,8 @@ std::string make_page(std::initializer_list<std::string_view> data, std::string_
 void HtmlReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
   auto place = std::find(catalogs_.begin(), catalogs_.end(), &catalog);
   if (place == catalogs_.end()) {
-    JsonWriter json(catalogs_json_);
-    write_catalog(json, catalog);
+    if (!catalogs_.empty()) catalogs_json_ += ',';
+    catalogs_json_ += catalog_of_page(catalog);
     place = catalogs_.insert(place, &catalog);
   }
   JsonWriter json(runs_json_);
@@ -163,7 +166,7 @@ std::string stream_page(const CompiledCatalog& catalog, const StreamOfPage& stre
   JsonWriter json(data);
   json.open('{');
   json.open("catalogs", '[');
-  write_catalog(json, catalog);
+  json.write_json(catalog_of_page(catalog));
   json.close(']');
   json.open("runs", '[');
   json.open('{');

@@ -68,6 +68,10 @@ class HtmlReport final : public SolveReport {
   std::string properties_json_;  ///< a member of the data, if it is a page of properties
 };
 
+/// What the page has to know about a catalog, as JSON on one line: tasks, situation variables and
+/// behaviors in catalog order, suitabilities in percent.
+[[nodiscard]] std::string catalog_of_page(const CompiledCatalog& catalog);
+
 /// A stream of events, or its end, as the HTML page gets it: the page is that of HtmlReport.
 struct StreamOfPage {
   std::string name;            ///< of the stream

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "core/files/output.h"
+#include "core/files/read.h"
 #include "core/script/state_json.h"
 #include "runtime/base/text.h"
 #include "solve/solve.h"

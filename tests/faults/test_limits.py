@@ -6,7 +6,7 @@ import subprocess
 import unittest
 
 from commands import COMMANDS, PROGRAM
-from fault_case import NO_THREAD, FaultCase, Run
+from fault_case import FaultCase, Run
 
 PAGE = 4096
 NO_LOADER = 127  # the exit status of the loader, before the program begins
@@ -52,7 +52,7 @@ class Limits(FaultCase):
             end = self.lowest("as", command.line(), 1 << 30) if command.replaces else start + (1 << 20)
             steps = 25
             jobs += [(command, {"as": start + (end - start) * step // steps}) for step in range(1, steps + 2)]
-        reasons = ("out of memory", "Cannot allocate memory", NO_THREAD)
+        reasons = ("out of memory", "Cannot allocate memory")
         self.each(lambda job, folder: self.check(job, folder, reasons), jobs)
 
     def test_descriptors(self):

@@ -65,7 +65,7 @@ TEST(OrderedWork, MayBeLeftBeforeItsEnd) {
 
 TEST(OrderedWork, SaysWhetherAnItemIsThere) {
   std::atomic<bool> may_go_on{false};
-  OrderedWork<int> work(1, 1, [&](std::size_t) {
+  OrderedWork<int> work(1, 2, [&](std::size_t) {
     while (!may_go_on) std::this_thread::yield();
     return 0;
   });
@@ -74,6 +74,14 @@ TEST(OrderedWork, SaysWhetherAnItemIsThere) {
   while (!work.wait_for(std::chrono::milliseconds(1))) {
   }
   EXPECT_EQ(work.take(), 0);
+}
+
+TEST(OrderedWork, StartsNoThreadForOne) {
+  const std::thread::id here = std::this_thread::get_id();
+  OrderedWork<std::thread::id> work(2, 1, [](std::size_t) { return std::this_thread::get_id(); });
+  EXPECT_TRUE(work.wait_for(std::chrono::milliseconds(0)));
+  EXPECT_EQ(work.take(), here);
+  EXPECT_EQ(work.take(), here);
 }
 
 }  // namespace

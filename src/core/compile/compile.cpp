@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <numeric>
 #include <string_view>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -181,7 +182,9 @@ class Compiler {
     struct Clique {
       std::vector<TaskId> tasks;
       std::uint32_t line = 0;
-      auto operator<=>(const Clique&) const = default;
+      bool operator<(const Clique& other) const {
+        return std::tie(tasks, line) < std::tie(other.tasks, other.line);
+      }
     };
     std::vector<Clique> cliques;
     for (const ExclusivityList& list : catalog_.exclusivity) {

@@ -8,14 +8,10 @@
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <new>
 #include <optional>
-#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
-
-#include "core/files/output.h"
 
 namespace cbc::cli {
 
@@ -27,7 +23,8 @@ namespace cbc::cli {
 }
 
 /// Makes items on several threads and hands them out in order. No thread runs far ahead of the
-/// items handed out, so there are never more than a few items per thread.
+/// items handed out, so there are never more than a few items per thread. For one thread none is
+/// started, nor where the system has none: each item is then made when it is taken.
 template <typename Item>
 class OrderedWork {
  public:
@@ -35,13 +32,12 @@ class OrderedWork {
   /// fewer if the system cannot start more.
   OrderedWork(std::size_t count, std::size_t threads, std::function<Item(std::size_t)> make)
       : make_(std::move(make)), count_(count), slots_(threads * items_per_thread) {
+    if (threads < 2) return;
     threads_.reserve(threads);
     try {
       while (threads_.size() < threads) threads_.emplace_back([this] { make_items(); });
-    } catch (const std::system_error& error) {
-      if (threads_.empty()) throw SystemRefusal("cannot start a thread", error.code().value());
-    } catch (const std::bad_alloc&) {
-      if (threads_.empty()) throw;
+    } catch (const std::exception&) {
+      // There are no more threads, or there is no memory for them: those that exist do the work.
     }
   }
   /// Waits for the items that are being made; no others are begun.
@@ -56,14 +52,16 @@ class OrderedWork {
   OrderedWork(const OrderedWork&) = delete;
   OrderedWork& operator=(const OrderedWork&) = delete;
 
-  /// Whether the next item is ready within the time.
+  /// Whether the next item is ready within the time, or is made when it is taken.
   [[nodiscard]] bool wait_for(std::chrono::milliseconds time) {
+    if (threads_.empty()) return true;
     std::unique_lock lock(mutex_);
     return has_item_.wait_for(lock, time, [this] { return next_slot().is_ready; });
   }
 
   /// Waits for the next item. If making it threw an exception, throws that.
   [[nodiscard]] Item take() {
+    if (threads_.empty()) return make_(taken_++);
     Slot slot;
     {
       std::unique_lock lock(mutex_);

@@ -261,7 +261,9 @@ int create_output(const std::string& path, std::string_view content) {
 int make_folder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (!error && !std::filesystem::is_directory(path, error) && !error) {
+  // Not every library says so.
+  if (std::error_code unknown; std::filesystem::exists(path, unknown) &&
+                               !std::filesystem::is_directory(path, unknown) && !unknown) {
     error = std::make_error_code(std::errc::not_a_directory);
   }
   if (error) return complain("cannot make the folder {}: {}", quote(path), error.message());

@@ -378,7 +378,7 @@ void RunSummary::write(const RunResult& result, Text& text) {
   text.add(table.line({"events", result.events}));
   text.add(table.line({"accepted", result.accepted}));
   text.add(table.line({"rejected", result.rejected}));
-  write_list(rejected_, result.rejected, {}, text);
+  write_list(rejected_, static_cast<std::size_t>(result.rejected), {}, text);
   if (!cycles_.empty()) {
     text.line("  timeouts again and again");
     write_list(cycles_, cycles_.size(), {}, text);

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -18,6 +21,29 @@
 #include "runtime/base/text.h"
 
 namespace cbc {
+
+std::optional<double> read_double(std::string_view text) {
+#ifdef __cpp_lib_to_chars
+  double value = 0;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  if (error != std::errc() || end != last) return std::nullopt;
+#else
+  // A libc++ that has from_chars for integers only, as in WebAssembly, where the locale is always
+  // "C". strtod also takes blanks, plus signs and hexadecimal numbers.
+  if (text.starts_with('+') || text.find_first_not_of("+-.0123456789Ee") != text.npos) {
+    return std::nullopt;
+  }
+  const std::string copy(text);
+  char* end = nullptr;
+  errno = 0;
+  const double value = std::strtod(copy.c_str(), &end);
+  if (copy.empty() || end != copy.c_str() + copy.size()) return std::nullopt;
+  if (std::isinf(value) || (value == 0 && errno == ERANGE)) return std::nullopt;
+#endif
+  return value;
+}
+
 namespace {
 
 /// Copies a few characters of a text. Returns 0 if all of them stand for themselves in JSON: they
@@ -58,9 +84,7 @@ bool is_digit(char character) { return character >= '0' && character <= '9'; }
 /// Whether a text is a number of JSON. One that no double can hold is none here, as many readers of
 /// JSON refuse it.
 bool is_number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return false;
+  if (!read_double(text)) return false;
   // These are not numbers in JSON: .5, 05, 5., inf
   if (text.starts_with('-')) text.remove_prefix(1);
   if (!is_digit(text.front())) return false;

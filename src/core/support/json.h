@@ -18,6 +18,9 @@
 
 namespace cbc {
 
+/// Reads all of a text as a decimal number. Empty if it is none, or one that no double can hold.
+[[nodiscard]] std::optional<double> read_double(std::string_view text);
+
 /// Collects JSON in a block of its own before it goes to the end of a text: much is written in
 /// small pieces, and a block takes them faster than a string does.
 class JsonBuffer {

@@ -13,7 +13,6 @@
 #include <random>
 #include <spawn.h>
 #include <sys/mman.h>
-#include <sys/random.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <system_error>
@@ -54,7 +53,7 @@ class SignalsHeld {
 /// umask.
 std::string draw_temporary_name() {
   std::uint64_t number = 0;
-  if (getrandom(&number, sizeof number, 0) != sizeof number) number = std::random_device()();
+  if (getentropy(&number, sizeof number) != 0) number = std::random_device()();
   return fmt::format(".cbc-{:016x}.tmp", number);
 }
 
@@ -105,11 +104,13 @@ class TemporaryFile {
     return is_named_;
   }
 
-  /// Fails if there is a file of that name. Not every file system knows how to rename so, nor
-  /// every one how to link.
+  /// Fails if there is a file of that name. Not every system knows how to rename so, nor every one
+  /// how to link.
   [[nodiscard]] bool become_new(const fs::path& path) {
+#ifdef RENAME_NOREPLACE
     is_named_ = renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0;
     if (is_named_ || (errno != EINVAL && errno != ENOSYS)) return is_named_;
+#endif
     return link(path_.c_str(), path.c_str()) == 0;  // the destructor removes the other name
   }
 

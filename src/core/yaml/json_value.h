@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/support/json.h"
 #include "core/yaml/document.h"
 #include "runtime/base/text.h"
 
@@ -83,29 +84,24 @@ class JsonValue {
   template <std::integral Integer>
   [[nodiscard]] Integer integer(Integer least = 0,
                                 Integer most = std::numeric_limits<Integer>::max()) const {
-    const auto value = parse<std::uint64_t>();
-    if (value && std::cmp_greater_equal(*value, least) && std::cmp_less_equal(*value, most)) {
-      return static_cast<Integer>(*value);
+    std::uint64_t value = 0;
+    const char* const last = node_->text.data() + node_->text.size();
+    const auto [end, error] = std::from_chars(node_->text.data(), last, value);
+    const bool is_read = is_plain() && error == std::errc() && end == last;
+    if (is_read && std::cmp_greater_equal(value, least) && std::cmp_less_equal(value, most)) {
+      return static_cast<Integer>(value);
     }
     if (most == std::numeric_limits<Integer>::max()) fail("a whole number in its range");
     fail("a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   }
   [[nodiscard]] double number(double least, double most, std::string_view range) const {
-    const auto value = parse<double>();
+    const auto value = is_plain() ? read_double(node_->text) : std::nullopt;
     if (!value || !(*value >= least && *value <= most)) fail("a number " + std::string(range));
     return *value;
   }
 
  private:
   [[nodiscard]] bool is_plain() const { return node_->kind == Kind::scalar && node_->plain; }
-
-  template <typename Number>
-  [[nodiscard]] std::optional<Number> parse() const {
-    Number value{};
-    const char* const last = node_->text.data() + node_->text.size();
-    const auto [end, error] = std::from_chars(node_->text.data(), last, value);
-    return is_plain() && error == std::errc() && end == last ? std::optional(value) : std::nullopt;
-  }
 
   [[nodiscard]] const Node& of_kind(Kind kind, std::string_view expected) const {
     if (node_->kind != kind) fail(expected);

@@ -1,8 +1,9 @@
 // Puts the parts of the page together: which run and which event are shown, keys, files and paper.
 
 class Page {
-  /** `properties`: of a page of properties; null on one of missions. */
-  constructor(runs, properties) {
+  /** `properties`: of a page of properties; null on one of missions. `hasAddress`: whether the address of the
+   * page says what is shown. */
+  constructor(runs, properties, hasAddress = true) {
     this.runs = runs;
     this.timeline = new Timeline({
       picture: byId('picture'), sheet: byId('sheet'), names: byId('labels'), plot: byId('plot'), canvas: byId('canvas'),
@@ -22,7 +23,8 @@ class Page {
     this.overview = new Overview(
       { section: byId('overview'), summary: byId('overview-summary'), body: byId('missions').tBodies[0] }, runs,
       properties, (place) => this.show(place));
-    this.address = new Address(runs, ({ place, index }) => this.show(place, this.numberAt(place, index)));
+    this.address = hasAddress
+      ? new Address(runs, ({ place, index }) => this.show(place, this.numberAt(place, index))) : null;
     byId('legend-fold').open = innerWidth >= 900 && innerHeight >= 1100;
     byId('wants-graph').checked = innerWidth >= 1400;
     this.graph.want(byId('wants-graph').checked);
@@ -42,7 +44,7 @@ class Page {
 
   /** Opens at what the address asks for, or at the first failure. */
   showFirst() {
-    const wanted = this.address.read();
+    const wanted = this.address?.read();
     const failed = this.runs.findIndex((run) => run.hasFailed);
     const place = wanted?.place ?? Math.max(0, failed);
     this.show(place, this.numberAt(place, wanted?.index));
@@ -95,7 +97,7 @@ class Page {
     if (event.ctrlKey || event.altKey || event.metaKey || byId('help').open || this.run === undefined) return;
     if (event.key === 'Escape') this.hover(null, null);
     const { target } = event;
-    if (target.closest?.('input:not([type=checkbox]), select')) return; // they have keys of their own
+    if (target.closest?.('input:not([type=checkbox]), select, [contenteditable]')) return; // they have keys of their own
     const isInTable = this.table.contains(target);
     const actions = {
       ArrowLeft: () => this.choose(this.number - 1),
@@ -231,7 +233,7 @@ class Page {
 
   chooseNewest() {
     this.choose(this.run.size, true);
-    this.address.clear();
+    this.address?.clear();
   }
 
   limit(run) {
@@ -253,7 +255,7 @@ class Page {
     const number = Math.min(run.size, Math.max(1, wanted));
     byId('status').setAttribute('aria-live', isAutomatic ? 'off' : 'polite');
     if (!isAutomatic) {
-      this.address.write(this.place, number === 0 ? 0 : run.indexOf(number));
+      this.address?.write(this.place, number === 0 ? 0 : run.indexOf(number));
       this.live?.onChoice(number);
     }
     if (run.size === 0) {
@@ -361,7 +363,3 @@ class Page {
     });
   }
 }
-
-const pageData = JSON.parse(showEscapes(byId('data').textContent));
-const page = new Page(readRuns(pageData), pageData.properties ?? null);
-if (pageData.live !== undefined) page.follow(pageData.live);

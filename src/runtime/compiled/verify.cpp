@@ -35,7 +35,7 @@ bool is_ascending(std::span<const std::uint32_t> numbers) {
   return descents == 0;
 }
 
-Fault find_count_fault(std::string_view what, std::size_t found, std::size_t expected) {
+Fault find_count_fault(std::string_view what, std::size_t found, std::uint64_t expected) {
   if (found == expected) return std::nullopt;
   return concat("'", what, "' has ", found, " entries, expected ", expected);
 }

@@ -59,7 +59,8 @@ class RunTests final : public SolveReport {
   /// Expectations are checked in the order of the script, so if a run ends early, the last ones
   /// were not reached.
   void end_run(const RunResult& result, const std::string& error) override {
-    for (std::size_t place = result.passed + result.failed; place < suite_.cases.size(); ++place) {
+    for (auto place = static_cast<std::size_t>(result.passed + result.failed);
+         place < suite_.cases.size(); ++place) {
       suite_.cases[place].status = TestCase::Status::skipped;
       suite_.cases[place].message = "the run ended earlier";
     }

@@ -344,7 +344,7 @@ SweptComparison to_comparison(const Swept& swept, const ComparedVersions& compar
   result.sequences = totals.sequences;
   for (const auto& [line, found] : totals.found) {
     std::vector<Step> steps = swept.steps_of(found.sequence, 0);
-    steps.resize(found.steps);
+    steps.resize(static_cast<std::size_t>(found.steps));
     if (found.is_by_clock) {
       Step wait;
       wait.time = steps.back().time;

@@ -9,6 +9,7 @@
 #include "verify/engine/explore.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <set>
@@ -168,9 +169,9 @@ Stepper::Options share_memory(const ExplorationOptions& options, std::uint64_t& 
   result.reduce = options.reduce;
   result.on_decision = options.on_decision;
   constexpr std::uint64_t most = std::uint64_t{256} << 20;
-  result.decision_bytes = memory == 0 ? most : std::min(most, memory / 4);
+  result.decision_bytes = static_cast<std::size_t>(memory == 0 ? most : std::min(most, memory / 4));
   // An array that grows takes twice its size for a while.
-  if (memory > 0) memory -= std::min(memory / 2, 2 * result.decision_bytes);
+  if (memory > 0) memory -= std::min<std::uint64_t>(memory / 2, 2 * result.decision_bytes);
   return result;
 }
 

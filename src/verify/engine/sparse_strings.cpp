@@ -79,7 +79,7 @@ std::span<const std::uint32_t> SparseStrings::ones_of(std::uint32_t number) cons
   const auto next = std::upper_bound(firsts_.begin(), firsts_.end(), std::uint64_t{number});
   const auto size = static_cast<std::size_t>(next - firsts_.begin() - 1);
   if (size == 0) return {};
-  return {&ones_[size][(number - firsts_[size]) * size], size};
+  return {&ones_[size][static_cast<std::size_t>(number - firsts_[size]) * size], size};
 }
 
 void SparseStrings::add_one_changed(const Word* row, const std::vector<bool>& is_listed, bool to,

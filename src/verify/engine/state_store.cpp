@@ -50,7 +50,7 @@ StateStore::Number StateStore::insert(const std::uint32_t* state, std::uint64_t 
   if (number != size_) return number;
   const std::size_t offset = size_ % segment;
   if (offset == 0) {
-    states_.push_back(std::make_unique_for_overwrite<std::uint32_t[]>(segment * words_));
+    states_.emplace_back(new std::uint32_t[segment * words_]);  // not set to zero
   }
   std::copy_n(state, words_, states_.back().get() + offset * words_);
   add_to_bucket(bucket, hash, size_++);

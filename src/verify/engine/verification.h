@@ -1,9 +1,10 @@
 #pragma once
 
-#include <compare>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "core/property/properties.h"
@@ -55,7 +56,10 @@ struct PropertyScope {
   /// Of a property with Property::after, whose mark is part of the state: itself.
   const Property* marked = nullptr;
 
-  auto operator<=>(const PropertyScope&) const = default;
+  bool operator<(const PropertyScope& other) const {
+    return std::tie(groups, variables, marked) <
+           std::tie(other.groups, other.variables, other.marked);
+  }
 };
 [[nodiscard]] PropertyScope scope_of(const CompiledCatalog& catalog, const Property& property);
 

@@ -1,0 +1,85 @@
+// The bundle of CodeMirror: a text with line numbers, YAML in color, and findings. Becomes the global TextEditor.
+
+import { basicSetup } from 'codemirror';
+import { yaml } from '@codemirror/lang-yaml';
+import { HighlightStyle, syntaxHighlighting } from '@codemirror/language';
+import { lintGutter, setDiagnostics } from '@codemirror/lint';
+import { EditorState, Annotation } from '@codemirror/state';
+import { EditorView, keymap } from '@codemirror/view';
+import { tags } from '@lezer/highlight';
+
+const isOurs = Annotation.define(); // a change that nobody typed
+
+const colors = HighlightStyle.define([
+  { tag: [tags.propertyName, tags.definition(tags.propertyName)], color: 'var(--requested-text)' },
+  { tag: tags.comment, color: 'var(--muted)', fontStyle: 'italic' },
+  { tag: [tags.string, tags.content], color: 'var(--ink)' },
+]);
+
+const theme = EditorView.theme({
+  '&': { height: '100%', fontSize: '12.5px', color: 'var(--ink)', backgroundColor: 'var(--paper)' },
+  '.cm-scroller': { fontFamily: 'ui-monospace, "DejaVu Sans Mono", monospace', overflow: 'auto' },
+  '.cm-gutters': { backgroundColor: 'var(--panel)', color: 'var(--muted)', borderColor: 'var(--line)' },
+  '.cm-activeLine, .cm-activeLineGutter': { backgroundColor: 'color-mix(in srgb, var(--accent) 8%, transparent)' },
+  '&.cm-focused .cm-cursor': { borderLeftColor: 'var(--ink)' },
+  '.cm-tooltip, .cm-panels': { backgroundColor: 'var(--paper)', color: 'var(--ink)', borderColor: 'var(--muted)' },
+  '.cm-selectionBackground, &.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground':
+    { backgroundColor: 'color-mix(in srgb, var(--accent) 28%, transparent) !important' },
+});
+
+export class TextEditor {
+  /** `onChange(text)`: after somebody has typed. */
+  constructor(parent, label, onChange) {
+    this.onChange = onChange;
+    this.view = new EditorView({ parent, state: this.newState('', label) });
+    this.label = label;
+  }
+
+  newState(text, label) {
+    return EditorState.create({ doc: text, extensions: [
+      basicSetup, yaml(), syntaxHighlighting(colors), theme, lintGutter(), EditorView.lineWrapping,
+      EditorView.contentAttributes.of({ 'aria-label': label }),
+      // Tab goes on to the next control of the page.
+      keymap.of([{ key: 'Escape', run: (view) => { view.contentDOM.blur(); return true; } }]),
+      EditorView.updateListener.of((update) => {
+        const isTyped = update.docChanged && !update.transactions.some((one) => one.annotation(isOurs));
+        if (isTyped) this.onChange(this.text);
+      }),
+    ] });
+  }
+
+  get text() {
+    return this.view.state.doc.toString();
+  }
+
+  /** Another text, which nobody has typed. */
+  set text(text) {
+    if (text === this.text) return;
+    this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text },
+                         annotations: isOurs.of(true) });
+  }
+
+  /** Findings as in cbc.lint/1. */
+  set findings(findings) {
+    const { doc } = this.view.state;
+    // Columns of findings count characters.
+    const offset = ({ line, column }) => {
+      const { from, text } = doc.line(Math.min(line, doc.lines));
+      return from + [...text].slice(0, column - 1).join('').length;
+    };
+    this.view.dispatch(setDiagnostics(this.view.state, findings.map((finding) => ({
+      from: offset(finding),
+      to: Math.max(offset(finding), offset({ line: finding.end_line, column: finding.end_column })),
+      severity: { error: 'error', warning: 'warning', note: 'info' }[finding.severity],
+      source: finding.rule,
+      message: finding.message,
+    }))));
+  }
+
+  /** Shows a line, with the cursor in it. */
+  show(line) {
+    const { from } = this.view.state.doc.line(Math.min(line, this.view.state.doc.lines));
+    this.view.dispatch({ selection: { anchor: from }, effects: EditorView.scrollIntoView(from, { y: 'center' }) });
+    this.view.focus();
+  }
+}

@@ -1,0 +1,83 @@
+// The program, in a worker: the page stays alive whatever it is asked, and what takes too long can be ended.
+
+/** Texts of the page that the build puts in place; null where they are files beside it. */
+const partOf = (id) => document.getElementById(id)?.textContent ?? null;
+
+/** Where a worker finds the program: its text, and the bytes or the address of the WebAssembly. */
+const programParts = (() => {
+  let parts;
+  return () => {
+    const script = partOf('worker-script');
+    parts ??= script === null
+      ? { worker: new URL('worker.js', location.href), program: { address: new URL('play.wasm', location.href).href } }
+      : { worker: URL.createObjectURL(new Blob([script], { type: 'text/javascript' })),
+          program: { packed: partOf('program').trim() } };
+    return parts;
+  };
+})();
+
+/** Why there is no answer: the work was ended, by the user or by a limit. */
+class Ended extends Error {}
+
+class Engine {
+  constructor() {
+    this.waiting = new Map(); // of each question: how to answer it
+    this.count = 0;
+    this.begin();
+  }
+
+  begin() {
+    const { worker, program } = programParts();
+    this.worker = new Worker(worker);
+    this.worker.addEventListener('message', ({ data }) => this.take(data));
+    this.worker.addEventListener('error', (event) => {
+      event.preventDefault();
+      this.end(new Error(`the program has failed: ${event.message ?? 'it could not be loaded'}`));
+    });
+    this.worker.postMessage({ program });
+  }
+
+  take({ id, answer, error }) {
+    const { resolve, reject } = this.waiting.get(id);
+    this.waiting.delete(id);
+    if (error === undefined) resolve(answer);
+    else reject(new Error(error));
+  }
+
+  send(message) {
+    return new Promise((resolve, reject) => {
+      const id = ++this.count;
+      this.waiting.set(id, { resolve, reject });
+      this.worker.postMessage({ id, ...message });
+    });
+  }
+
+  /** A request of the session, see session.h. */
+  async ask(request) {
+    const answer = await this.send({ request });
+    if (answer.error !== undefined) throw new Error(answer.error);
+    return answer;
+  }
+
+  /** A command line: {status, stdout, stderr, files}, all as texts. */
+  run(words, files) {
+    return this.send({ words, files });
+  }
+
+  get isBusy() {
+    return this.waiting.size > 0;
+  }
+
+  /** Ends whatever is being done; a new program takes its place, which knows of nothing. */
+  end(reason = new Ended('it was ended')) {
+    this.close();
+    const waiting = [...this.waiting.values()];
+    this.waiting.clear();
+    this.begin();
+    for (const { reject } of waiting) reject(reason);
+  }
+
+  close() {
+    this.worker.terminate();
+  }
+}

@@ -1,0 +1,80 @@
+// Proofs, by `cbc verify` in a worker of their own, so that the robot can be driven meanwhile.
+
+class Prover {
+  /** `elements`: {begin, end, limit, progress, list}. `onScript(text)`: opens a script that was found. */
+  constructor(elements, { texts, onScript }) {
+    Object.assign(this, elements);
+    this.texts = texts;
+    this.onScript = onScript;
+    this.engine = null;
+    this.begin.addEventListener('click', () => this.prove());
+    this.end.addEventListener('click', () => this.engine?.end());
+  }
+
+  async prove() {
+    const { catalog, properties } = this.texts();
+    const limit = Math.max(1, Number(this.limit.value) || 1);
+    this.show(limit);
+    try {
+      this.tell(catalog, properties, await this.run(catalog, properties, limit));
+    } catch (error) {
+      this.list.replaceChildren(html('p', 'alarm', error instanceof Ended ? 'The proof was ended.' : error.message));
+    }
+    this.engine.close();
+    this.engine = null;
+    clearInterval(this.timer);
+    for (const element of [this.end, this.progress]) element.hidden = true;
+    this.begin.disabled = false;
+  }
+
+  show(limit) {
+    const started = performance.now();
+    this.engine = new Engine();
+    this.begin.disabled = true;
+    for (const element of [this.end, this.progress]) element.hidden = false;
+    const tick = () => {
+      const seconds = (performance.now() - started) / 1000;
+      this.progress.value = Math.min(1, seconds / limit);
+      this.list.replaceChildren(html('p', 'hint', `visiting states: ${seconds.toFixed(0)} s of at most ${limit} s`));
+    };
+    tick();
+    this.timer = setInterval(tick, 250);
+  }
+
+  run(catalog, properties, limit) {
+    const limits = ['--time-limit', `${limit}`, '--max-memory', '1G'];
+    if (properties.trim() === '') return this.engine.run(['verify', 'robot.yaml', ...limits], { 'robot.yaml': catalog });
+    // A property file may name its catalog, as whatever it is called where it comes from.
+    const named = /^catalog:[ \t]*(["']?)([^"'#\n]+?)\1[ \t]*(#.*)?$/m.exec(properties)?.[2].replace(/^.*\//, '');
+    const own = properties.replace(/^catalog:.*$/m, `catalog: ${JSON.stringify(named ?? '')}`);
+    return this.engine.run(
+      ['verify', ...(named === undefined ? ['robot.yaml'] : []), 'robot.properties.yaml', '--format', 'json',
+       '--scripts', 'scripts', ...limits],
+      { [named ?? 'robot.yaml']: catalog, 'robot.properties.yaml': named === undefined ? properties : own });
+  }
+
+  tell(catalog, properties, { status, stdout, stderr, files }) {
+    if (properties.trim() === '' || status > 1 || !stdout.startsWith('{')) {
+      this.list.replaceChildren(...(stderr === '' ? [] : [html('pre', status > 1 ? 'alarm' : '', stderr)]),
+                                html('pre', '', stdout));
+      return;
+    }
+    const report = JSON.parse(showEscapes(stdout));
+    const states = report.groups.reduce((sum, group) => sum + group.states, 0);
+    const items = report.properties.map((property) => this.itemOf(property, files));
+    this.list.replaceChildren(
+      html('p', 'hint', `${quantity(states, 'state')} visited${report.groups.every((group) => group.complete) ? '' : ', not all'}`),
+      html('ul', 'proofs', ...items));
+  }
+
+  itemOf({ name, kind, line, result, script }, files) {
+    const look = { proved: 'accepted', violated: 'rejected' }[result] ?? 'open';
+    const sign = { proved: '\u2713', violated: '\u00d7' }[result] ?? '?';
+    const item = html('li', '', html('span', `outcome ${look}`, `${sign} ${result}`), ` ${name ?? kind} (line ${line}) `);
+    const text = script === null ? undefined : files[script];
+    if (text !== undefined) {
+      item.append(buttonElement(result === 'violated' ? 'open counterexample' : 'open witness', () => this.onScript(text)));
+    }
+    return item;
+  }
+}

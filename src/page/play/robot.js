@@ -1,0 +1,144 @@
+// The robot to drive: what can be asked of it, and what it does. Each control stands for an entry of a mission.
+
+/** What an event would do, in a line: from a move of cbc.what-if/1. */
+function describeMove(move) {
+  const started = Object.entries(move.started).map(([task, behavior]) => (task === behavior ? `+${task}` : `+${task} (${behavior})`));
+  const changed = Object.entries(move.changed).map(([task, behavior]) => `${task} \u2192 ${nameOfChange(behavior)}`);
+  const stopped = move.stopped.map((task) => `\u2212${task}`);
+  const failed = move.failed.map((name) => `${typeof name === 'string' ? name : name.behavior} would fail`);
+  const effects = [...started, ...changed, ...stopped, ...failed];
+  if (move.outcome === 'rejected') {
+    const reasons = move.conflict.map(({ text, message }) => text ?? message).join('; ');
+    return `\u00d7 would be rejected${reasons === '' ? '' : `: ${reasons}`}`;
+  }
+  return effects.length === 0 ? 'would change no behavior' : `would do: ${effects.join(', ')}`;
+}
+
+const nameOfChange = (change) => (typeof change === 'string' ? change : change.to ?? change.behavior ?? JSON.stringify(change));
+
+/** A control that asks for an event, and says before what it would do. */
+function eventButton(text, label, entry, { onAsk, onPreview }) {
+  const button = buttonElement(text, () => onAsk(entry()));
+  button.setAttribute('aria-label', label);
+  for (const name of ['pointerenter', 'focus']) button.addEventListener(name, () => onPreview(entry()));
+  for (const name of ['pointerleave', 'blur']) button.addEventListener(name, () => onPreview(null));
+  return button;
+}
+
+const inSeconds = (seconds) => `${seconds.toFixed(seconds < 10 ? 1 : 0)} s`;
+
+class Robot {
+  /** `asks`: {onAsk(entry), onPreview(entry or null), onWhy(task)}. */
+  constructor(asks) {
+    this.asks = asks;
+    byId('filter').addEventListener('input', () => this.filter());
+  }
+
+  /** Another catalog. `requestable`: the tasks that a mission can start. */
+  build(catalog, requestable) {
+    this.catalog = catalog;
+    this.tasks = new Map([...catalog.taskPlace.keys()].map((name) => [name, this.taskRow(name, requestable.has(name))]));
+    this.behaviors = new Map([...catalog.behaviors.keys()].map((name) => [name, this.behaviorRow(name)]));
+    this.variables = new Map([...catalog.variables].map(([name, values]) => [name, this.variableRow(name, values)]));
+    for (const [id, rows] of [['tasks', this.tasks], ['behaviors', this.behaviors], ['variables', this.variables]]) {
+      byId(id).replaceChildren(...[...rows.values()].map((row) => row.item));
+    }
+    byId('situation').hidden = this.variables.size === 0;
+    this.filter();
+  }
+
+  row(name) {
+    const state = html('span', 'state');
+    const buttons = html('span', 'buttons');
+    const item = html('li', '', html('span', 'name', breakable(name)), state, buttons);
+    return { item, state, buttons };
+  }
+
+  taskRow(name, isRequestable) {
+    const row = this.row(name);
+    const priority = () => Number(byId('priority').value) || 1;
+    const start = eventButton('start', `start ${name}`, () => ({ start: name, ...(priority() === 1 ? {} : { priority: priority() }) }), this.asks);
+    const stop = eventButton('stop', `stop ${name}`, () => ({ stop: name }), this.asks);
+    const finish = eventButton('finish', `finish ${name}`, () => ({ finish: { task: name } }), this.asks);
+    const fail = eventButton('fail', `fail ${name}`, () => ({ finish: { task: name }, cause: 'process_failure' }), this.asks);
+    const why = buttonElement('why?', () => this.asks.onWhy(name));
+    why.setAttribute('aria-label', `why ${name} is as it is`);
+    row.buttons.append(start, stop, finish, fail, why);
+    return { ...row, start, stop, finish, fail, isRequestable };
+  }
+
+  behaviorRow(name) {
+    const row = this.row(name);
+    const fault = eventButton('fault', `fault of ${name}`, () => ({ fault: name }), this.asks);
+    const repair = eventButton('repair', `repair ${name}`, () => ({ repair: name }), this.asks);
+    row.buttons.append(fault, repair);
+    return { ...row, fault, repair };
+  }
+
+  variableRow(name, values) {
+    const row = this.row(name);
+    const choices = new Map(values.map((value) => {
+      const written = values.join() === 'true,false' || values.join() === 'false,true' ? value === 'true' : value;
+      const button = eventButton(`${value}`, `${name} is ${value}`, () => ({ situation: { [name]: written } }), this.asks);
+      return [`${value}`, button];
+    }));
+    row.buttons.append(...choices.values());
+    row.buttons.setAttribute('role', 'group');
+    row.buttons.setAttribute('aria-label', name);
+    return { ...row, choices };
+  }
+
+  /** What the controls say after an event of a run. `due`: {timeouts, queue, now}, in seconds. */
+  show(run, number, due) {
+    const { running, requests, queue } = run.stateAt(number);
+    const values = run.values[number];
+    for (const [name, row] of this.tasks) {
+      const behavior = get(running, name);
+      const request = get(requests, name);
+      const waits = get(queue, name);
+      const timeout = get(due.timeouts, name);
+      const parts = [
+        behavior === undefined ? '' : behavior === name ? 'runs' : `runs: ${behavior}`,
+        request === undefined ? '' : `requested${request === 1 ? '' : `, priority ${request}`}`,
+        waits === undefined ? '' : waits === null ? 'waits for a change' : `starts by itself in ${inSeconds(waits - due.now)}`,
+        timeout === undefined ? '' : `times out in ${inSeconds(timeout - due.now)}`,
+      ];
+      this.say(row, parts, behavior === undefined ? '' : request === undefined ? 'required' : 'requested');
+      row.start.disabled = !row.isRequestable;
+      row.stop.disabled = behavior === undefined && request === undefined && waits === undefined;
+      row.finish.disabled = behavior === undefined;
+      row.fail.disabled = behavior === undefined;
+    }
+    const [faulty, unavailable, misfits] = ['faulty', 'unavailable', 'misfits'].map((kind) => new Set(run[kind][number]));
+    const performed = new Map();
+    for (const [task, behavior] of Object.entries(running)) performed.set(behavior, [...(performed.get(behavior) ?? []), task]);
+    for (const [name, row] of this.behaviors) {
+      const parts = [
+        performed.has(name) ? `active for ${performed.get(name).join(', ')}` : '',
+        faulty.has(name) ? 'faulty' : '', unavailable.has(name) ? 'unavailable' : '',
+        misfits.has(name) ? 'does not fit the situation' : '',
+      ];
+      this.say(row, parts, performed.has(name) ? 'requested' : faulty.has(name) ? 'faulty' : '');
+      row.fault.disabled = faulty.has(name);
+      row.repair.disabled = !faulty.has(name);
+    }
+    for (const [name, row] of this.variables) {
+      for (const [value, button] of row.choices) {
+        button.setAttribute('aria-pressed', `${`${values.get(name)}` === value}`);
+      }
+    }
+  }
+
+  say(row, parts, look) {
+    const text = parts.filter((part) => part !== '').join(' \u00b7 ');
+    if (row.state.textContent !== text) row.state.textContent = text;
+    row.item.dataset.look = look;
+  }
+
+  filter() {
+    const wanted = byId('filter').value.trim().toLowerCase();
+    for (const rows of [this.tasks, this.behaviors, this.variables]) {
+      for (const [name, { item }] of rows ?? []) item.hidden = !name.toLowerCase().includes(wanted);
+    }
+  }
+}

@@ -1,0 +1,82 @@
+// The program in WebAssembly. `createCbc` is what Emscripten makes, in the same file.
+
+/** Decodes base64 of gzip, as a page has it that can fetch nothing. */
+async function unpack(base64) {
+  const packed = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
+  return new Response(stream).arrayBuffer();
+}
+
+class Cbc {
+  /** `bytes`: of play.wasm, or a promise of them. */
+  static async load(bytes) {
+    return new Cbc(await WebAssembly.compile(await bytes));
+  }
+
+  constructor(module) {
+    this.module = module;
+  }
+
+  /** An instance with memory and files of its own. */
+  instantiate() {
+    return createCbc({
+      thisProgram: 'cbc',
+      instantiateWasm: (imports, take) => {
+        WebAssembly.instantiate(this.module, imports).then((instance) => take(instance, this.module));
+        return {};
+      },
+    });
+  }
+
+  /**
+   * Runs a command line as the program does, in an instance of its own, so that no run knows of another one.
+   * `files`: path -> text or bytes, below the working directory `folder`. Returns {status, stdout, stderr, files}:
+   * bytes of what it wrote; `files`: path -> bytes of those that are new or have changed, relative to `folder`.
+   */
+  async run(programArguments, files = {}, { stdin = '', folder = '/work' } = {}) {
+    const { FS, callMain } = await this.instantiate();
+    const write = (path, content) => {
+      FS.mkdirTree(path.slice(0, path.lastIndexOf('/')));
+      FS.writeFile(path, content);
+    };
+    FS.mkdirTree(folder);
+    FS.chdir(folder);
+    const before = new Map();
+    for (const [path, content] of Object.entries(files)) {
+      const whole = path.startsWith('/') ? path : `${folder}/${path}`;
+      write(whole, content);
+      before.set(whole, FS.readFile(whole));
+    }
+    // In this order, as an opened file takes the lowest free descriptor.
+    write('/dev/shm/stdin', stdin);
+    for (const descriptor of [0, 1, 2]) FS.close(FS.streams[descriptor]);
+    for (const [name, mode] of [['stdin', 'r'], ['stdout', 'w+'], ['stderr', 'w+']]) {
+      FS.open(`/dev/shm/${name}`, mode);
+    }
+    const status = callMain([...programArguments]);
+    const written = {};
+    const visit = (at) => {
+      for (const name of FS.readdir(at).filter((one) => one !== '.' && one !== '..')) {
+        const path = `${at}/${name}`;
+        if (FS.isDir(FS.stat(path).mode)) {
+          visit(path);
+        } else {
+          const content = FS.readFile(path);
+          if (!isSame(before.get(path), content)) written[path.slice(folder.length + 1)] = content;
+        }
+      }
+    };
+    visit(folder);
+    return { status, stdout: FS.readFile('/dev/shm/stdout'), stderr: FS.readFile('/dev/shm/stderr'), files: written };
+  }
+
+  /** A session of the simulator: a function that takes a request and returns the answer; see session.h. */
+  async openSession() {
+    const { ccall } = await this.instantiate();
+    return (request) => JSON.parse(ccall('cbc_session', 'string', ['string'], [JSON.stringify(request)]));
+  }
+}
+
+function isSame(one, other) {
+  return one !== undefined && one.length === other.length && one.every((byte, place) => byte === other[place]);
+}

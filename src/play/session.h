@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cbc/units.h"
+#include "core/check/check.h"
+#include "core/check/controls.h"
+#include "core/report/event_json.h"
+#include "core/report/failure_explanation.h"
+#include "core/script/event_lines.h"
+#include "core/script/runner.h"
+#include "core/script/script.h"
+#include "core/support/json.h"
+#include "core/yaml/json_value.h"
+#include "runtime/coordinator/state.h"
+
+namespace cbc::play {
+
+/// A robot that a page drives: events are applied one by one, and any earlier state can be gone
+/// back to, from where other events lead elsewhere.
+///
+/// A request is an object whose member `do` says what is asked for; so is the answer. What is wrong
+/// with a request is the member `error` of the answer, and then nothing changes.
+///
+///   check    catalog (its text), name, settings (the text of .cbc.yaml; may be absent): `lint`, as
+///            cbc.lint/1
+///   open     the same, and begins a session unless there are errors: also `catalog` and `begin`,
+///            as the page of --html gets them
+///   load     mission (its text), name: begins anew with all its entries: `lint`, and unless there
+///            are errors `begin` and what an apply answers; if the clock runs away in it, what came
+///            before stays
+///   apply    event (an entry of a script): `index` and `time` after it, `first` (the index of the
+///            first new event; later ones of before are gone), `events` and `failures` as the page
+///            gets them, `warnings`
+///   advance  to (seconds; absent: when something falls due next): the same
+///   goto     index (of an event; 0: before all): `index` and `time` that were reached; what
+///   follows
+///            one event at once, and all that the clock does at its instant, belongs to it
+///   what_if  events (entries; absent: all that may be asked for): `report`, as cbc.what-if/1;
+///            `errors` of entries that are left out
+///   state    `report`, as cbc.what-if/1 without moves; `timeouts`, by task; `next_due`, or null
+///   why      subject (a task or behavior), index (of an event; absent: now): the `event` that
+///   decided
+///            about it, as `cbc solve --why --format json` has it, or null
+///   mission  `mission`: the session as a script, with expectations
+class Session {
+ public:
+  [[nodiscard]] std::string answer(std::string_view request);
+
+ private:
+  /// An event or an expectation, or the clock that moves on, and what came of it.
+  struct Entry {
+    Step step;
+    bool is_clock = false;  ///< all that is due at the time of the step is done, too
+    Snapshot after;
+    Expectation reached;
+  };
+  struct Happened {
+    Microseconds time = 0;
+    GroupId group;  ///< of its search; none: it had none
+    TaskId rejected = none;
+  };
+
+  void check(const yaml::JsonValue& request, bool begins, JsonWriter& answer);
+  void load(const yaml::JsonValue& request, JsonWriter& answer);
+  void apply(const yaml::JsonValue& request, JsonWriter& answer);
+  void advance(const yaml::JsonValue& request, JsonWriter& answer);
+  void go_to(const yaml::JsonValue& request, JsonWriter& answer);
+  void what_if(const yaml::JsonValue& request, JsonWriter& answer);
+  void tell_state(JsonWriter& answer);
+  void why(const yaml::JsonValue& request, JsonWriter& answer);
+  void write_mission(JsonWriter& answer) const;
+
+  void begin(Script script);
+  void resume();
+  [[nodiscard]] CoordinatorOptions options() const;
+  [[nodiscard]] const Snapshot& present() const;
+  [[nodiscard]] Microseconds next_time() const;
+  void take(Step step, bool is_clock);
+  void run(Entry& entry);
+  void tell_present(JsonWriter& answer) const;
+  void tell_news(std::uint64_t first, JsonWriter& answer);
+  [[nodiscard]] std::string what_if_report(const std::vector<Step>& steps, bool has_moves) const;
+  [[nodiscard]] std::size_t decider_of(TaskId task, std::size_t index) const;
+
+  std::shared_ptr<const CheckedCatalog> source_;
+  const CompiledCatalog* catalog_ = nullptr;  ///< null: no session
+  SeveritySettings settings_;
+  Script script_;  ///< without its steps
+  Snapshot start_;
+  std::vector<std::shared_ptr<const Entry>> entries_;
+  std::size_t position_ = 0;          ///< how many of them are done
+  std::shared_ptr<const Entry> cut_;  ///< done after these: a part of the next one; or null
+  std::vector<Happened> events_;      ///< of all entries
+  std::optional<EventStream> stream_;
+  std::optional<Runner> runner_;
+  FailureExplanation explanation_;
+  std::vector<std::string> new_events_;
+  std::vector<std::string> new_failures_;
+};
+
+}  // namespace cbc::play

@@ -1,0 +1,386 @@
+"""The simulator in a headless Chromium: what people do with it, from a disk and from a server, without a network.
+
+CBC_PLAY: the folder that ./dev play makes. CBC_PROGRAM: the native program, which must have the same answers."""
+
+import functools
+import http.server
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/browser"))
+
+from chromium import BrowserError, Chromium  # noqa: E402
+
+PLAY = pathlib.Path(os.environ.get("CBC_PLAY", ROOT / "build/play")).resolve()
+PROGRAM = os.environ.get("CBC_PROGRAM", str(ROOT / "build/release/cbc"))
+AXE = ROOT / "build/browser-npm/node_modules/axe-core/axe.min.js"  # where ./dev test-browser puts it
+PATIENCE = 60  # seconds of a busy machine
+FIRST = (ROOT / "src/page/play/first.yaml").read_text()
+
+
+class PlayCase(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.chromium = Chromium()
+        cls.browser = cls.chromium.__enter__()
+        cls.browser.call("Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=-1,
+                         uploadThroughput=-1)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.chromium.__exit__()
+
+    def setUp(self):
+        self.browser.set_size(1600, 1000)
+        self.open()
+
+    def tearDown(self):
+        faults = [event for event in self.browser.events if event.get("method") == "Runtime.exceptionThrown"
+                  or event.get("method") == "Log.entryAdded" and event["params"]["entry"]["level"] == "error"]
+        self.assertEqual(faults, [])
+
+    def open(self, fragment="", address=None):
+        self.browser.load("about:blank")  # a changed fragment alone loads nothing
+        self.browser.load((address or (PLAY / "cbc-play.html").as_uri()) + fragment)
+        self.wait("play.simulation.isOpen || document.querySelector('#note').className === 'bad'")
+        self.idle()
+
+    def ask(self, expression):
+        return self.browser.ask(expression)
+
+    def wait(self, condition):
+        deadline = time.monotonic() + PATIENCE
+        while not self.ask(f"Boolean({condition})"):
+            self.assertLess(time.monotonic(), deadline, condition)
+            time.sleep(0.02)
+
+    def idle(self):
+        self.wait("!play.engine.isBusy")
+        self.ask("play.simulation.work.then(() => true)")
+        self.wait("!play.engine.isBusy")
+
+    def place_of(self, selector):
+        self.ask(f"document.querySelector({json.dumps(selector)}).scrollIntoView({{block: 'center'}})")
+        x, y = self.ask(f"(() => {{ const box = document.querySelector({json.dumps(selector)}).getBoundingClientRect();"
+                        " return [box.x + box.width / 2, box.y + box.height / 2]; })()")
+        return x, y
+
+    def click(self, selector):
+        self.browser.click(*self.place_of(selector))
+        self.idle()
+
+    def press(self, label):
+        self.click(f'[aria-label="{label}"]')
+
+    def text(self, selector):
+        return self.ask(f"document.querySelector({json.dumps(selector)}).textContent")
+
+    def running(self):
+        return self.ask("play.simulation.page.run.running(play.simulation.index)")
+
+    def mission(self):
+        return self.ask("play.missionText()")
+
+    def write_in(self, editor, text):
+        """Replaces the text of an editor, as if somebody had typed it."""
+        self.ask(f"play.chooseTab('{editor}')")
+        self.ask(f"(() => {{ const {{ view }} = play.{editor}; view.focus();"
+                 f" view.dispatch({{ changes: {{ from: 0, to: view.state.doc.length, insert: {json.dumps(text)} }} }}); }})()")
+
+
+class Robot(PlayCase):
+    def test_another_behavior_takes_over(self):
+        self.press("start DRIVE")
+        self.assertEqual(self.running(), {"DRIVE": "DRIVE_WITH_CAMERA", "LOCALIZE": "MATCH_LANDMARKS"})
+        self.press("fault of DRIVE_WITH_CAMERA")
+        self.press("fail DRIVE")
+        self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_LIDAR")
+        self.assertIn("faulty", self.text("#behaviors li:nth-child(1) .state"))
+        self.press("repair DRIVE_WITH_CAMERA")
+        self.press("start DRIVE")
+        self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_CAMERA")
+        self.press("LIGHT is dark")
+        self.assertEqual(self.running(), {"DRIVE": "DRIVE_WITH_LIDAR", "LOCALIZE": "COUNT_WHEEL_TURNS"})
+        self.assertEqual(self.ask("[...document.querySelectorAll('#events tbody tr')].length"),
+                         self.ask("play.simulation.page.run.size"))
+
+    def test_a_rejected_request_has_its_reason(self):
+        self.ask("byId('priority').value = 2")
+        self.press("start CHARGE")
+        self.ask("byId('priority').value = 1")
+        self.browser.move(*self.place_of('[aria-label="start DRIVE"]'))
+        self.wait("byId('preview').textContent.includes('would be rejected')")
+        self.assertIn("DRIVE excludes CHARGE", self.text("#preview"))
+        self.assertEqual(self.ask("play.simulation.page.run.size"), 1)  # nothing has happened
+        self.press("start DRIVE")
+        self.assertIn("was rejected", self.text("#note"))
+        self.assertIn("DRIVE excludes CHARGE", self.text("#detail-body"))
+        self.press("why DRIVE is as it is")
+        self.assertIn("CHARGE runs with priority 2", self.text("#why-body"))
+
+    def test_what_a_control_would_do(self):
+        for label, said in (("start DRIVE", "+DRIVE (DRIVE_WITH_CAMERA)"), ("stop DRIVE", "no behavior")):
+            if self.ask(f"document.querySelector('[aria-label=\"{label}\"]').disabled"):
+                continue
+            self.ask(f"document.querySelector('[aria-label=\"{label}\"]').focus()")
+            self.wait(f"byId('preview').textContent.includes({json.dumps(said)})")
+        self.assertEqual(self.ask("play.simulation.page.run.size"), 0)
+
+    def test_undo_and_fork(self):
+        for label in ("start DRIVE", "LIGHT is dark", "stop DRIVE"):
+            self.press(label)
+        self.assertEqual(self.running(), {})
+        self.click("#undo")
+        self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_LIDAR")
+        self.click("#undo")
+        self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_CAMERA")
+        self.assertRegex(self.text("#later"), r"[23] later events")
+        self.click("#redo")
+        self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_LIDAR")
+        self.click("#undo")
+        self.press("finish DRIVE")
+        self.assertEqual(self.ask("play.simulation.page.run.events.map((event) => event.verb)"), ["start", "finish"])
+        self.assertEqual(self.text("#later"), "")
+        # To the beginning by keys, and on again by the table.
+        for _ in range(2):
+            self.browser.key("z", modifiers=2)
+            self.idle()
+        self.assertEqual((self.running(), self.ask("play.simulation.index")), ({}, 0))
+        self.click("#events tbody tr:nth-child(2)")
+        self.assertEqual(self.ask("play.simulation.index"), 2)
+
+    def test_the_clock(self):
+        self.press("start GREET")
+        self.assertIn("times out in 5.0 s", self.text("#tasks li:nth-child(3) .state"))
+        self.click("#step")
+        self.assertIn("times out in 4.0 s", self.text("#tasks li:nth-child(3) .state"))
+        self.click("#to-next")
+        self.assertEqual(self.running(), {})
+        self.assertEqual(self.text("#now"), "5.000 s")
+        self.press("start GREET")
+        self.click("#run")
+        self.wait("parseFloat(byId('now').textContent) > 5.5")
+        self.click("#run")
+        now = float(self.text("#now").split()[0])
+        self.press("stop GREET")
+        self.assertGreaterEqual(self.ask("play.simulation.page.run.events.at(-1).time"), now)
+
+
+class Texts(PlayCase):
+    def test_what_was_done_runs_on_the_command_line(self):
+        for label in ("start DRIVE", "fault of MATCH_LANDMARKS", "fail LOCALIZE", "start CHARGE", "LIGHT is dark"):
+            self.press(label)
+        self.click("#step")
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "robot.yaml").write_text(FIRST)
+            pathlib.Path(folder, "m.yaml").write_text(self.mission())
+            done = subprocess.run([PROGRAM, "solve", "m.yaml", "--format", "json"], cwd=folder, check=False,
+                                  stdout=subprocess.PIPE)
+            self.assertEqual(done.returncode, 0, done.stdout.decode())
+            (run,) = json.loads(done.stdout)["runs"]
+        self.assertGreater(run["expectations"]["passed"], 4)
+        events = self.ask("play.simulation.page.run.events")
+        strip = lambda event: {key: value for key, value in event.items() if key not in ("why", "note")}
+        for expected, event in zip(run["events"], events, strict=True):
+            self.assertEqual(strip(event), strip(expected))
+
+    def test_a_mission_whose_expectation_fails(self):
+        self.write_in("mission", "events:\n- start: DRIVE\n- expect: {running: {DRIVE: DRIVE_WITH_LIDAR}}\n- stop: DRIVE\n")
+        self.wait("play.simulation.page.run.size === 2")
+        self.idle()
+        self.assertIn("DRIVE_WITH_LIDAR", self.text("#alarms"))
+        self.click("#undo")
+        self.assertIn("Why not as expected", self.text("#detail-body"))
+        self.write_in("mission", "events:\n- start: DRIVING\n")
+        self.wait("byId('findings-mission').textContent.includes('DRIVING')")
+
+    def test_findings_while_one_types(self):
+        self.press("start DRIVE")
+        self.write_in("catalog", FIRST.replace("task: GREET}", "taks: GREET}", 1))
+        self.wait("byId('findings-catalog').textContent.includes('taks')")
+        self.idle()
+        self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_CAMERA")  # the last robot that had no errors
+        # What was done is done with the new robot, too.
+        self.write_in("catalog", FIRST.replace("suitability: 80", "suitability: 99"))
+        self.wait("play.simulation.page.run.size > 0 && play.simulation.page.run.running(1).DRIVE === 'DRIVE_WITH_LIDAR'")
+        self.assertEqual(self.text("#findings-catalog"), "")
+
+    def test_a_link_in_a_fresh_browser(self):
+        for label in ("start DRIVE", "fault of MATCH_LANDMARKS"):
+            self.press(label)
+        link = self.ask("play.link()")
+        events = self.ask("play.simulation.page.run.events")
+        with Chromium() as other:
+            other.load(link)
+            deadline = time.monotonic() + PATIENCE
+            while not other.ask("play.simulation.page?.run.size === 2"):
+                self.assertLess(time.monotonic(), deadline)
+                time.sleep(0.05)
+            self.assertEqual(other.ask("play.simulation.page.run.events"), events)
+            self.assertEqual(other.ask("play.catalog.text"), FIRST)
+
+    def test_links_that_are_damaged(self):
+        self.press("start DRIVE")
+        packed = self.ask("play.link()").partition("#s=")[2]
+        for wrong, said in (("x", "damaged"), ("1.", "damaged"), (packed[:-9], "damaged"), ("1.AAAA", "damaged"),
+                            ("2." + packed[2:], "newer version"), (packed.swapcase(), "damaged"),
+                            ("1." + "A" * 300000, "damaged")):
+            self.open("#s=" + wrong)
+            self.assertIn(said, self.text("#note"), wrong[:20])
+            self.press("start GREET")
+            self.assertEqual(self.running(), {"GREET": "WAVE_ARM"})
+
+    def test_a_page_that_is_saved(self):
+        self.press("start DRIVE")
+        text = self.ask("play.sessionNow().then(pageWith)")
+        with tempfile.NamedTemporaryFile("w", suffix=".html") as file:
+            file.write(text)
+            file.flush()
+            self.open(address=pathlib.Path(file.name).as_uri())
+            self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_CAMERA")
+            # It can be saved once more.
+            self.press("stop DRIVE")
+            self.assertIn('stop: \\"DRIVE\\"', self.ask("play.sessionNow().then(pageWith)"))
+
+    def test_embedded(self):
+        link = self.ask("play.link()")
+        self.open("?embed#" + link.partition("#")[2])
+        self.assertEqual(self.ask("getComputedStyle(byId('source')).display"), "none")
+        self.press("start GREET")
+        self.assertEqual(self.running(), {"GREET": "WAVE_ARM"})
+
+
+class Proofs(PlayCase):
+    def prove(self, properties):
+        self.write_in("properties", properties)
+        self.click("#prove")
+
+    def test_a_counterexample_opens_as_a_session(self):
+        self.prove("properties:\n- {name: stays bright, never: {all: [{running: {DRIVE: DRIVE_WITH_LIDAR}},"
+                   " {situation: {LIGHT: bright}}]}}\n- {name: greets, can_start: GREET}\nassume: {faults: 1}\n")
+        self.wait("!byId('prove').disabled")
+        self.assertEqual(self.ask("[...document.querySelectorAll('.proofs .outcome')].map((one) => one.textContent)"),
+                         ["\u00d7 violated", "\u00d7 violated"])
+        self.click(".proofs li:first-child button")
+        self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_LIDAR")
+
+    def test_a_proof_can_be_ended(self):
+        example = self.ask("examples.findIndex((one) => one.title === 'hospital')")
+        self.ask(f"play.openExample(examples[{example}], false).then(() => true)")
+        self.idle()
+        properties = self.ask("play.properties.text")
+        self.prove(re.sub(r"^assume:", "assume:\n  faults: 3", properties, flags=re.M)
+                   if "\nassume:" in properties else properties + "assume: {faults: 3}\n")
+        self.wait("byId('proofs').textContent.includes('visiting states')")
+        self.press("start " + self.ask("[...play.robot.tasks].find(([, row]) => row.isRequestable)[0]"))
+        self.assertEqual(self.ask("play.simulation.page.run.events.at(-1).verb"), "start")  # the robot goes on
+        self.click("#prove-end")
+        self.wait("byId('proofs').textContent.includes('ended')")
+
+    def test_properties_that_are_wrong(self):
+        self.prove("properties:\n- {name: x, never: {runing: [DRIVE]}}\n")
+        self.wait("!byId('prove').disabled")
+        self.assertIn("runing", self.text("#proofs"))
+
+    def test_facts_without_properties(self):
+        self.prove("")
+        self.wait("!byId('prove').disabled")
+        self.assertIn("states", self.text("#proofs"))
+
+
+class Page(PlayCase):
+    def test_from_a_server(self):
+        quiet = type("Quiet", (http.server.SimpleHTTPRequestHandler,), {"log_message": lambda *_: None})
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(quiet, directory=PLAY))
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        self.addCleanup(server.server_close)
+        self.addCleanup(server.shutdown)
+        with Chromium() as browser:
+            other, self.browser = self.browser, browser
+            try:
+                browser.set_size(1600, 1000)
+                self.open(address=f"http://127.0.0.1:{server.server_port}/index.html")
+                self.press("start DRIVE")
+                self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_CAMERA")
+                self.assertIn("saved-session", self.ask("play.sessionNow().then(pageWith)"))
+            finally:
+                self.browser = other
+
+    def test_all_examples_open(self):
+        for place in range(self.ask("examples.length")):
+            self.ask(f"play.openExample(examples[{place}], false).then(() => true)")
+            self.idle()
+            self.assertEqual(self.text("#note"), "")
+            self.assertEqual(self.ask("document.querySelectorAll('.finding.error').length"), 0)
+            mission = self.ask(f"examples[{place}].mission ?? ''")
+            self.assertEqual(self.ask("play.simulation.page.run.size") > 0, mission != "")
+
+    def test_a_large_catalog(self):
+        behaviors = "".join(f"- {{behavior: B{number}, task: T{number // 4}, suitability: {1 + number % 100}}}\n"
+                            for number in range(100000))
+        self.ask("byId('end-work').click()")
+        self.write_in("catalog", "behaviors:\n" + behaviors)
+        time.sleep(1)
+        self.wait("!byId('end-work').hidden || !play.engine.isBusy")
+        self.assertEqual(self.ask("1 + 1"), 2)  # the page is alive
+        self.ask("byId('end-work').click()")
+        self.wait("byId('note').textContent.includes('anew') || !play.engine.isBusy")
+
+    def test_a_click_is_seen_soon(self):
+        example = self.ask("examples.findIndex((one) => one.title === 'hospital')")
+        self.ask(f"play.openExample(examples[{example}], false).then(() => true)")
+        self.idle()
+        times = self.ask("""(async () => {
+          const tasks = [...play.robot.tasks].filter(([, row]) => row.isRequestable).map(([name]) => name);
+          const frame = () => new Promise(requestAnimationFrame);
+          const times = [];
+          for (let number = 0; play.simulation.page.run.size < 340; ++number) {
+            const task = tasks[number % tasks.length];
+            const begin = performance.now();
+            await play.ask(number % 2 ? { stop: tasks[(number - 1) % tasks.length] } : { start: task });
+            await frame();
+            if (play.simulation.page.run.size > 300) times.push(performance.now() - begin);
+          }
+          return times.sort((one, other) => one - other);
+        })()""")
+        print(f"\nhospital, after 300 events: a click takes {times[len(times) // 2]:.0f} ms to be seen "
+              f"(the slowest of {len(times)}: {times[-1]:.0f})")
+        self.assertLess(times[len(times) // 2], 5000)  # a hang; its speed is measured, not tested
+
+    def test_small_screens_and_dark_ones(self):
+        for width, height in ((360, 740), (768, 1024), (1280, 800), (3840, 2160)):
+            for scheme in ("light", "dark"):
+                self.browser.set_size(width, height)
+                self.browser.set_scheme(scheme)
+                self.press("start GREET")
+                self.assertLessEqual(self.ask("document.documentElement.scrollWidth"), width)
+                (ROOT / "build/browser").mkdir(parents=True, exist_ok=True)
+                self.browser.screenshot(str(ROOT / f"build/browser/play-{width}-{scheme}.png"))
+        self.browser.set_scheme("light")
+
+    @unittest.skipUnless(AXE.exists(), "axe-core is not there")
+    def test_accessibility(self):
+        self.press("start DRIVE")
+        for scheme in ("light", "dark"):
+            self.browser.set_scheme(scheme)
+            for tab in ("catalog", "mission", "properties"):
+                self.ask(f"play.chooseTab('{tab}')")
+                self.browser.settle()
+                self.browser.call("Runtime.evaluate", expression=AXE.read_text())
+                found = self.ask("axe.run({runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa']}).then((result) =>"
+                                 " result.violations.map((one) => [one.id, one.nodes.map((node) => node.html.slice(0, 160))]))")
+                self.assertEqual(found, [], f"{scheme}, {tab}")
+        self.browser.set_scheme("light")
+
+
+if __name__ == "__main__":
+    unittest.main()
