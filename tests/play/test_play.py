@@ -155,7 +155,8 @@ class Robot(PlayCase):
             self.browser.key("z", modifiers=2)
             self.idle()
         self.assertEqual((self.running(), self.ask("play.simulation.index")), ({}, 0))
-        self.click("#events tbody tr:nth-child(2)")
+        self.ask("document.querySelector('#events tbody tr:nth-child(2) button').click()")
+        self.idle()
         self.assertEqual(self.ask("play.simulation.index"), 2)
 
     def test_the_clock(self):
@@ -274,8 +275,7 @@ class Proofs(PlayCase):
         self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_LIDAR")
 
     def test_a_proof_can_be_ended(self):
-        example = self.ask("examples.findIndex((one) => one.title === 'hospital')")
-        self.ask(f"play.openExample(examples[{example}], false).then(() => true)")
+        self.ask("play.openExample('hospital').then(() => true)")
         self.idle()
         properties = self.ask("play.properties.text")
         self.prove(re.sub(r"^assume:", "assume:\n  faults: 3", properties, flags=re.M)
@@ -316,13 +316,23 @@ class Page(PlayCase):
                 self.browser = other
 
     def test_all_examples_open(self):
-        for place in range(self.ask("examples.length")):
-            self.ask(f"play.openExample(examples[{place}], false).then(() => true)")
+        for session in self.ask("examples.sessions"):
+            self.open(f"#example={session['id']}&event=2")
+            self.assertEqual(self.text("#note"), "", session)
+            self.assertEqual(self.ask("document.querySelectorAll('.finding.error').length"), 0, session)
+            self.assertEqual(self.ask("play.simulation.page.run.size") > 0, "mission" in session, session)
+            if "mission" in session:
+                self.assertGreaterEqual(self.ask("play.simulation.index"), 2)
+        self.open("#example=nothing")
+        self.assertIn("no example", self.text("#note"))
+
+    def test_things_to_try(self):
+        for number, running in ((1, "DRIVE_WITH_LIDAR"), (2, "DOCK"), (3, "DRIVE_WITH_LIDAR")):
+            self.open()
+            self.ask(f"document.querySelector('#welcome li:nth-child({number}) button').click()")
+            self.wait("play.simulation.page.run.size >= 2")
             self.idle()
-            self.assertEqual(self.text("#note"), "")
-            self.assertEqual(self.ask("document.querySelectorAll('.finding.error').length"), 0)
-            mission = self.ask(f"examples[{place}].mission ?? ''")
-            self.assertEqual(self.ask("play.simulation.page.run.size") > 0, mission != "")
+            self.wait(f"Object.values(play.simulation.page.run.running(play.simulation.index)).includes('{running}')")
 
     def test_a_large_catalog(self):
         behaviors = "".join(f"- {{behavior: B{number}, task: T{number // 4}, suitability: {1 + number % 100}}}\n"
@@ -336,8 +346,7 @@ class Page(PlayCase):
         self.wait("byId('note').textContent.includes('anew') || !play.engine.isBusy")
 
     def test_a_click_is_seen_soon(self):
-        example = self.ask("examples.findIndex((one) => one.title === 'hospital')")
-        self.ask(f"play.openExample(examples[{example}], false).then(() => true)")
+        self.ask("play.openExample('hospital').then(() => true)")
         self.idle()
         times = self.ask("""(async () => {
           const tasks = [...play.robot.tasks].filter(([, row]) => row.isRequestable).map(([name]) => name);
