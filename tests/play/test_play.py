@@ -209,7 +209,8 @@ class Texts(PlayCase):
         self.write_in("catalog", FIRST.replace("task: GREET}", "taks: GREET}", 1))
         self.wait("byId('findings-catalog').textContent.includes('taks')")
         self.idle()
-        self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_CAMERA")  # the last robot that had no errors
+        self.assertIn("last one", self.text("#note"))
+        self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_CAMERA")
         # What was done is done with the new robot, too.
         self.write_in("catalog", FIRST.replace("suitability: 80", "suitability: 99"))
         self.wait("play.simulation.page.run.size > 0 && play.simulation.page.run.running(1).DRIVE === 'DRIVE_WITH_LIDAR'")
