@@ -243,9 +243,9 @@ class Play {
   }
 
   async sessionNow() {
-    const { simulation } = this;
-    const mission = simulation.isOpen && simulation.page.run.size > 0 ? await simulation.mission() : '';
-    return { catalog: this.catalog.text, name: simulation.catalogName, mission, properties: this.properties.text };
+    const { mission, index } = await this.simulation.whole();
+    return { catalog: this.catalog.text, name: this.simulation.catalogName, mission, properties: this.properties.text,
+             ...(mission === '' ? {} : { index }) };
   }
 
   async link() {

@@ -148,6 +148,19 @@ class Simulation {
     return this.isOpen ? (await this.engine.ask({ do: 'mission' })).mission : '';
   }
 
+  /** The mission with all events, also those after the present one, and the index of that: {mission, index}. */
+  async whole() {
+    let whole = { mission: '', index: 0 };
+    await this.do(async () => {
+      if (!this.isOpen || this.page.run.size === 0) return;
+      const { index } = this;
+      if (this.canRedo) await this.engine.ask({ do: 'goto', index: this.page.run.size });
+      whole = { mission: await this.mission(), index };
+      if (this.canRedo) await this.engine.ask({ do: 'goto', index });
+    });
+    return whole;
+  }
+
   async why(subject) {
     return (await this.engine.ask({ do: 'why', subject, index: this.index })).event;
   }
