@@ -31,13 +31,13 @@ export class TextEditor {
   /** `onChange(text)`: after somebody has typed. */
   constructor(parent, label, onChange) {
     this.onChange = onChange;
-    this.view = new EditorView({ parent, state: this.newState('', label) });
-    this.label = label;
+    this.view = new EditorView({ parent, state: this.newState(label) });
+    this.view.scrollDOM.tabIndex = 0; // so that keys can scroll long lines
   }
 
-  newState(text, label) {
-    return EditorState.create({ doc: text, extensions: [
-      basicSetup, yaml(), syntaxHighlighting(colors), theme, lintGutter(), EditorView.lineWrapping,
+  newState(label) {
+    return EditorState.create({ extensions: [
+      basicSetup, yaml(), syntaxHighlighting(colors), theme, lintGutter(),
       EditorView.contentAttributes.of({ 'aria-label': label }),
       // Tab goes on to the next control of the page.
       keymap.of([{ key: 'Escape', run: (view) => { view.contentDOM.blur(); return true; } }]),

@@ -19,6 +19,9 @@ const programParts = (() => {
 /** Why there is no answer: the work was ended, by the user or by a limit. */
 class Ended extends Error {}
 
+/** The program itself has failed, which knows of nothing from then on. */
+class Failed extends Error {}
+
 class Engine {
   constructor() {
     this.waiting = new Map(); // of each question: how to answer it
@@ -32,7 +35,7 @@ class Engine {
     this.worker.addEventListener('message', ({ data }) => this.take(data));
     this.worker.addEventListener('error', (event) => {
       event.preventDefault();
-      this.end(new Error(`the program has failed: ${event.message ?? 'it could not be loaded'}`));
+      this.end(new Failed(`the program has failed: ${event.message ?? 'it could not be loaded'}`));
     });
     this.worker.postMessage({ program });
   }
@@ -41,7 +44,7 @@ class Engine {
     const { resolve, reject } = this.waiting.get(id);
     this.waiting.delete(id);
     if (error === undefined) resolve(answer);
-    else reject(new Error(error));
+    else reject(new Failed(`the program has failed: ${error}`));
   }
 
   send(message) {

@@ -1,25 +1,40 @@
 // The sessions that the simulator offers: a first robot, and all catalogs of the project with their missions.
 
-import { existsSync, readFileSync, readdirSync } from 'node:fs';
+import { readFileSync, readdirSync } from 'node:fs';
 import path from 'node:path';
 
+/** What a first visit may try. */
 const tries = [
-  { text: 'Something breaks: drive, then landmarks cannot be seen. Who takes over?',
+  { text: 'Something breaks: the robot drives, then it cannot match landmarks any more. Who takes over?',
     entries: [{ start: 'DRIVE' }, { fault: 'MATCH_LANDMARKS' }, { finish: 'MATCH_LANDMARKS', cause: 'process_failure' }] },
-  { text: 'Two requests that exclude one another: the higher priority wins, and the other one is told why.',
+  { text: 'Two requests exclude one another: the one with the higher priority goes first, the other one is rejected.',
     entries: [{ start: 'CHARGE', priority: 2 }, { start: 'DRIVE' }] },
   { text: 'It becomes dark while the robot drives.',
-    entries: [{ situation: { LIGHT: 'bright' } }, { start: 'DRIVE', priority: 3 }, { situation: { LIGHT: 'dark' } }] },
+    entries: [{ start: 'DRIVE', priority: 3 }, { situation: { LIGHT: 'dark' } }] },
 ];
 
+/**
+ * {texts, sessions}: texts by file, and [{id, title, catalog, mission, properties}], which name files; there need be no
+ * mission and no properties. The first session also has `tries`.
+ */
 export function listExamples(root) {
   const folder = path.join(root, 'catalogs');
-  const read = (name) => (existsSync(path.join(folder, name)) ? readFileSync(path.join(folder, name), 'utf8') : '');
-  const names = readdirSync(folder).filter((name) => /^[\w-]+\.yaml$/.test(name)).map((name) => name.replace(/\.yaml$/, ''));
-  const first = { title: 'a first robot', name: 'robot.yaml', tries,
-                  catalog: readFileSync(path.join(root, 'src/page/play/first.yaml'), 'utf8') };
-  return [first, ...names.map((name) => ({
-    title: name.replaceAll('-', ' '), name: `${name}.yaml`, catalog: read(`${name}.yaml`),
-    mission: read(`${name}.mission.yaml`), properties: read(`${name}.properties.yaml`),
-  }))];
+  const texts = { 'robot.yaml': readFileSync(path.join(root, 'src/page/play/first.yaml'), 'utf8') };
+  for (const at of ['', 'missions']) {
+    for (const name of readdirSync(path.join(folder, at)).filter((one) => one.endsWith('.yaml'))) {
+      texts[name] = readFileSync(path.join(folder, at, name), 'utf8');
+    }
+  }
+  const known = (name) => (Object.hasOwn(texts, name) ? name : undefined);
+  const sessions = [{ id: 'robot', title: 'a first robot', catalog: 'robot.yaml', tries }];
+  for (const file of readdirSync(folder).filter((name) => /^[\w-]+\.yaml$/.test(name))) {
+    const id = file.replace(/\.yaml$/, '');
+    const properties = known(`${id}.properties.yaml`);
+    sessions.push({ id, title: id, catalog: file, mission: known(`${id}.mission.yaml`), properties });
+    for (const mission of readdirSync(path.join(folder, 'missions')).filter((name) => name.startsWith(`${id}-`))) {
+      const part = mission.replace(/\.yaml$/, '');
+      sessions.push({ id: part, title: `${id}: ${part.slice(id.length + 1)}`, catalog: file, mission, properties });
+    }
+  }
+  return { texts, sessions };
 }

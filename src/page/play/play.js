@@ -33,26 +33,36 @@ class Play {
 
   // Texts -----------------------------------------------------------------------------------------
 
-  /** What the address or the page has, or else the first example. */
+  /** What the address or the page has, or else the first example: "#s=SESSION" or "#example=ID". */
   async start() {
     document.body.classList.toggle('is-embedded', new URLSearchParams(location.search).has('embed'));
-    const shared = new URLSearchParams(location.hash.slice(1)).get('s');
+    const address = new URLSearchParams(location.hash.slice(1));
+    const shared = address.get('s');
+    const [first] = examples.sessions;
     try {
       const saved = JSON.parse(partOf('saved-session'));
       if (shared !== null) return await this.openSession(await unpackSession(shared));
       if (saved !== null) return await this.openSession(checkSession(saved));
+      if (address.has('example')) {
+        return await this.openExample(address.get('example'), Number.parseInt(address.get('event') ?? '', 10));
+      }
     } catch (error) {
-      await this.openExample(examples[0], false);
+      await this.openExample(first.id);
       this.note(error.message, true);
       return undefined;
     }
-    return this.openExample(examples[0], true);
+    await this.openExample(first.id);
+    return this.welcome(first.tries);
   }
 
-  async openExample(example, isFirst) {
-    await this.openSession(example);
-    byId('welcome').hidden = !isFirst;
-    if (isFirst) this.welcome();
+  /** `index`: of the event to go to; NaN: to the last one. */
+  async openExample(id, index = NaN) {
+    const found = examples.sessions.find((session) => session.id === id);
+    if (found === undefined) throw new Error(`there is no example "${id}"`);
+    const { texts } = examples;
+    const textOf = (name) => (name === undefined ? '' : texts[name]);
+    await this.openSession({ catalog: texts[found.catalog], name: found.catalog, mission: textOf(found.mission),
+                             properties: textOf(found.properties), index: Number.isNaN(index) ? undefined : index });
   }
 
   async openSession({ catalog, mission = '', properties = '', name = 'robot.yaml', index }) {
@@ -191,6 +201,7 @@ class Play {
       if (this.engine.isBusy) return;
       this.clockTime = Math.max(this.clockTime ?? 0, due.now) + seconds;
       byId('now').textContent = `${this.clockTime.toFixed(1)} s`;
+      this.robot.show(this.simulation.page.run, this.simulation.index, { ...due, now: this.clockTime });
       if (due.next !== null && this.clockTime >= due.next) this.simulation.advance(due.next);
     }, tickOfClock);
   }
@@ -210,11 +221,11 @@ class Play {
   setUpBar() {
     const on = (id, action) => byId(id).addEventListener('click', () => Promise.resolve(action()).catch((error) => this.note(error.message, true)));
     const list = byId('examples');
-    for (const [place, example] of examples.entries()) {
-      list.append(Object.assign(document.createElement('option'), { value: `${place}`, textContent: example.title }));
+    for (const { id, title } of examples.sessions) {
+      list.append(Object.assign(document.createElement('option'), { value: id, textContent: title }));
     }
     list.addEventListener('change', () => {
-      if (list.value !== '') this.openExample(examples[Number(list.value)], false);
+      if (list.value !== '') this.openExample(list.value);
       list.value = '';
     });
     on('undo', () => this.undo());
@@ -232,9 +243,9 @@ class Play {
   }
 
   async sessionNow() {
-    const { simulation } = this;
-    const mission = simulation.isOpen && simulation.page.run.size > 0 ? await simulation.mission() : '';
-    return { catalog: this.catalog.text, name: simulation.catalogName, mission, properties: this.properties.text };
+    const { mission, index } = await this.simulation.whole();
+    return { catalog: this.catalog.text, name: this.simulation.catalogName, mission, properties: this.properties.text,
+             ...(mission === '' ? {} : { index }) };
   }
 
   async link() {
@@ -345,8 +356,7 @@ class Play {
   }
 
   /** What a first visit may try. */
-  welcome() {
-    const { tries } = examples[0];
+  welcome(tries) {
     const list = html('ol', '', ...tries.map(({ text, entries }) => {
       const item = html('li', '', `${text} `);
       item.append(buttonElement('show me', async () => {
@@ -356,6 +366,7 @@ class Play {
     }));
     byId('welcome').replaceChildren(html('strong', '', 'Things to try'), list,
                                     buttonElement('close', () => { byId('welcome').hidden = true; }));
+    byId('welcome').hidden = false;
   }
 }
 

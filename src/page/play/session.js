@@ -24,7 +24,7 @@ class Simulation {
 
   fail(error) {
     this.view.onNote(error.message, true);
-    if (error instanceof Ended) this.isOpen = false;
+    if (error instanceof Ended || error instanceof Failed) this.isOpen = false;
   }
 
   /** A catalog; `mission`, if not null, is run with it. Returns whether it could be used. */
@@ -33,7 +33,11 @@ class Simulation {
       this.catalogText = text;
       const answer = await this.engine.ask({ do: 'open', catalog: text, name: this.catalogName });
       this.view.onFindings('catalog', findingsOf(answer));
-      if (answer.catalog === undefined) return;
+      if (answer.catalog === undefined) {
+        if (this.isOpen) this.view.onNote('The catalog has errors. The robot is the last one that had none.', true);
+        return;
+      }
+      this.view.onNote('', false);
       this.isOpen = true;
       this.catalog = new Catalog(answer.catalog);
       const moves = (await this.engine.ask({ do: 'what_if' })).report.moves;
@@ -142,6 +146,19 @@ class Simulation {
   /** The mission up to the present event. */
   async mission() {
     return this.isOpen ? (await this.engine.ask({ do: 'mission' })).mission : '';
+  }
+
+  /** The mission with all events, also those after the present one, and the index of that: {mission, index}. */
+  async whole() {
+    let whole = { mission: '', index: 0 };
+    await this.do(async () => {
+      if (!this.isOpen || this.page.run.size === 0) return;
+      const { index } = this;
+      if (this.canRedo) await this.engine.ask({ do: 'goto', index: this.page.run.size });
+      whole = { mission: await this.mission(), index };
+      if (this.canRedo) await this.engine.ask({ do: 'goto', index });
+    });
+    return whole;
   }
 
   async why(subject) {
