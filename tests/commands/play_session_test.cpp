@@ -233,7 +233,7 @@ TEST(PlaySession, LoadsMissionsWithFailures) {
   ASSERT_TRUE(loaded.contains("failures")) << loaded;
   ASSERT_EQ(loaded["failures"].size(), 1U) << loaded;
   EXPECT_EQ(loaded["failures"][0]["line"], 3);
-  EXPECT_FALSE(loaded["failures"][0]["reasons"].empty());
+  EXPECT_FALSE(loaded["failures"][0].at("why").empty());
   EXPECT_FALSE(page.apply("stop: TAKE_OFF").contains("error"));
   EXPECT_TRUE(page.ask({{"do", "load"}, {"mission", "events: 7"}})["lint"]["errors"] > 0);
   EXPECT_EQ(page.state()["report"]["event"], page.events.size()) << "a bad mission changed it";
