@@ -135,6 +135,23 @@ class Robot(PlayCase):
             self.wait(f"byId('preview').textContent.includes({json.dumps(said)})")
         self.assertEqual(self.ask("play.simulation.page.run.size"), 0)
 
+    def test_by_keyboard(self):
+        self.ask("document.querySelector('[aria-label=\"start DRIVE\"]').focus()")
+        said = []
+        for key in ("ArrowDown", "ArrowRight", "ArrowLeft", "ArrowDown"):
+            self.browser.key(key)
+            said.append(self.ask("document.activeElement.getAttribute('aria-label')"))
+        self.assertEqual(said, ["start CHARGE", "why CHARGE is as it is", "start CHARGE", "start GREET"])
+        self.browser.key("Enter", "\r")
+        self.idle()
+        self.assertEqual(self.running(), {"GREET": "WAVE_ARM"})
+        self.browser.key("t", "t")
+        self.idle()
+        self.assertEqual(self.text("#now"), "1.000 s")
+        self.browser.key("d", "d")
+        self.idle()
+        self.assertEqual(self.running(), {})
+
     def test_undo_and_fork(self):
         for label in ("start DRIVE", "LIGHT is dark", "stop DRIVE"):
             self.press(label)

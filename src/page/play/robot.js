@@ -32,6 +32,7 @@ class Robot {
   constructor(asks) {
     this.asks = asks;
     byId('filter').addEventListener('input', () => this.filter());
+    byId('columns').addEventListener('keydown', (event) => this.moveFocus(event));
   }
 
   /** Another catalog. `requestable`: the tasks that a mission can start. */
@@ -127,6 +128,27 @@ class Robot {
         button.setAttribute('aria-pressed', `${`${values.get(name)}` === value}`);
       }
     }
+  }
+
+  /** Arrow keys go from button to button, and from row to row, so that one need not pass all of them. */
+  moveFocus(event) {
+    const row = event.target.closest('li');
+    const rowStep = { ArrowUp: -1, ArrowDown: 1 }[event.key];
+    const buttonStep = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (row === null || (rowStep ?? buttonStep) === undefined) return;
+    event.preventDefault();
+    event.stopPropagation(); // to the page they mean other events
+    const buttons = [...row.querySelectorAll('button')];
+    const place = buttons.indexOf(event.target);
+    if (buttonStep !== undefined) {
+      const others = buttonStep > 0 ? buttons.slice(place + 1) : buttons.slice(0, place).reverse();
+      others.find((button) => !button.disabled)?.focus();
+      return;
+    }
+    const rows = [...row.parentElement.children].filter((one) => !one.hidden);
+    const there = [...rows[rows.indexOf(row) + rowStep]?.querySelectorAll('button') ?? []];
+    const wanted = there[place]?.disabled === false ? there[place] : there.find((button) => !button.disabled);
+    wanted?.focus();
   }
 
   say(row, parts, look) {
