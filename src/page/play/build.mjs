@@ -33,7 +33,7 @@ const script = [
   bundled.outputFiles[0].text, 'const { TextEditor } = editorBundle;', `const examples = ${examples};`,
   minified([...pageScripts.map((name) => source('page', 'html', name)), ...ownScripts.map((name) => source('page', 'play', name))].join('\n')),
 ].join('\n').replaceAll('</script', '<\\/script');
-const worker = minified([source('play', 'cbc.js'), source('page', 'play', 'worker.js')].join('\n'));
+const worker = minified([source('wasm', 'cbc.js'), source('page', 'play', 'worker.js')].join('\n'));
 const workerScript = `${readFileSync(path.join(program, 'play.js'), 'utf8')}\n${worker}`.replaceAll('</script', '<\\/script');
 const wasm = readFileSync(path.join(program, 'play.wasm'));
 
