@@ -14,6 +14,7 @@
 #include "core/report/event_description.h"
 #include "core/script/state_json.h"
 #include "core/support/json.h"
+#include "page/script_element.h"
 #include "page_files.h"
 
 namespace cbc {
@@ -62,18 +63,6 @@ namespace {
 
 /// Failed expectations that a full page has of a run: their messages stand without their events.
 constexpr std::uint64_t most_later_failures = 100;
-
-/// Adds JSON to a script element, which ends at the first "</script" wherever it is, and is parsed
-/// differently after "<!--". In JSON, "<" occurs in strings only.
-void add_to_script_element(std::string& text, std::string_view json) {
-  for (const char character : json) {
-    if (character == '<') {
-      text += "\\u003c";
-    } else {
-      text += character;
-    }
-  }
-}
 
 /// `data`: in parts. `sources`: what the page may connect to, for its security policy.
 std::string make_page(std::initializer_list<std::string_view> data, std::string_view sources) {
