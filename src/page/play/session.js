@@ -14,7 +14,6 @@ class Simulation {
     this.work = Promise.resolve(); // what was asked for is done one after the other
     this.index = 0; // of the present event
     this.loaded = null; // the mission, as long as nothing else was done
-    this.catalogLine = ''; // by which the mission names its catalog
   }
 
   /** One thing after the other. What fails is told, and the next one goes on. */
@@ -41,7 +40,6 @@ class Simulation {
       const moves = (await this.engine.ask({ do: 'what_if' })).report.moves;
       this.view.onCatalog(this.catalog, new Set(moves.filter((move) => move.verb === 'start').map((move) => move.name)));
       this.loaded = null;
-      this.catalogLine = '';
       this.showRun(answer.begin, [], []);
       if (mission !== null) await this.loadNow(mission, isWritten);
       else await this.arrive();
@@ -62,7 +60,6 @@ class Simulation {
       return this.arrive();
     }
     this.loaded = isWritten ? mission : null;
-    this.catalogLine = /^catalog: .*\n/m.exec(mission)?.[0] ?? '';
     this.showRun(answer.begin, answer.events, answer.failures);
     await this.arrive();
   }
@@ -150,7 +147,7 @@ class Simulation {
   async mission() {
     if (!this.isOpen) return '';
     if (this.loaded !== null && this.index === this.page.run.size) return this.loaded;
-    return this.catalogLine + (await this.engine.ask({ do: 'mission' })).mission;
+    return (await this.engine.ask({ do: 'mission' })).mission;
   }
 
   async why(subject) {
