@@ -221,7 +221,7 @@ int play(const PlayOptions& options) {
 void add_play_command(Program& program) {
   const auto options = std::make_shared<PlayOptions>();
   Command& command = program.add_command(
-      "play", "Serves the simulator: drive a robot in a browser, and edit its files there.",
+      "play", "Serves the simulator: drive a robot in a browser.",
       {{"[OPTION...] CATALOG [MISSION] [PROPERTIES]"}, play_examples, play_footer});
   command
       .argument("FILE", options->paths, input("...", ValueKind::catalog_or_script),

@@ -298,15 +298,10 @@ class Proofs(PlayCase):
         self.assertIn("states", self.text("#proofs"))
 
 
-class Files(PlayCase):
-    """The page of `cbc play`."""
+class Installed(PlayCase):
+    """With a program beside which the page is found."""
 
     MISSION = "# by hand\ncatalog: robot.yaml\nevents:\n- start: DRIVE\n- expect: {running: {DRIVE: DRIVE_WITH_CAMERA}}\n"
-
-    @classmethod
-    def setUpClass(cls):
-        cls.chromium = Chromium()
-        cls.browser = cls.chromium.__enter__()
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -314,16 +309,70 @@ class Files(PlayCase):
         self.folder = pathlib.Path(folder.name)
         for place in ("bin", "share/cbc/play"):
             (self.folder / place).mkdir(parents=True)
-        shutil.copy(PROGRAM, self.folder / "bin/cbc")
+        self.program = self.folder / "bin/cbc"
+        shutil.copy(PROGRAM, self.program)
         (self.folder / "share/cbc/play/cbc-play.html").symlink_to(PLAY / "cbc-play.html")
         self.files = {name: self.folder / name for name in ("robot.yaml", "m.yaml", "p.yaml")}
         for name, text in (("robot.yaml", FIRST), ("m.yaml", self.MISSION), ("p.yaml", "properties: []\n")):
             self.files[name].write_text(text)
-        self.process = subprocess.Popen([self.folder / "bin/cbc", "play", *self.files, "--address", "127.0.0.1:0"],
+        self.browser.set_size(1600, 1000)
+
+
+class Continued(Installed):
+    """The pages of --html, which go on in the simulator."""
+
+    def draw(self, *arguments, program=None):
+        subprocess.run([program or self.program, *arguments, "--html", "page.html"], cwd=self.folder, check=False,
+                       stdout=subprocess.DEVNULL)
+        self.browser.load((self.folder / "page.html").as_uri())
+        self.browser.settle()
+
+    def go_on(self):
+        address = self.ask("new Promise((resolve) => { open = resolve; byId('continue').click(); })")
+        self.assertTrue(address.startswith((self.folder / "share/cbc/play/cbc-play.html").as_uri() + "#s=1."))
+        self.open(address=address)
+
+    def test_a_mission_at_an_event(self):
+        self.files["m.yaml"].write_text(self.MISSION + "- situation: {LIGHT: dark}\n- stop: DRIVE\n")
+        self.draw("solve", "m.yaml")
+        self.ask("page.choose(1)")
+        events = self.ask("page.run.events.length")
+        self.go_on()
+        self.assertEqual(self.ask("[play.simulation.index, play.simulation.page.run.size]"), [1, events])
+        self.assertEqual(self.ask("[play.catalog.text, play.simulation.catalogName]"), [FIRST, "robot.yaml"])
+        self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_CAMERA")
+        self.assertEqual(self.ask("play.simulation.page.run.failures.size"), 0)
+        self.press("stop DRIVE")
+        self.assertEqual(self.running(), {})
+
+    def test_a_counterexample(self):
+        self.files["p.yaml"].write_text("catalog: robot.yaml\nproperties:\n"
+                                        "- never: {running: {DRIVE: DRIVE_WITH_LIDAR}}\n")
+        self.draw("verify", "p.yaml")
+        self.go_on()
+        self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_LIDAR")
+
+    def test_without_the_simulator(self):
+        (self.folder / "share/cbc/play/cbc-play.html").unlink()
+        self.draw("solve", "m.yaml")
+        self.assertTrue(self.ask("byId('continue').hidden"))
+        self.assertNotIn(FIRST.splitlines()[0], (self.folder / "page.html").read_text())
+
+
+class Files(Installed):
+    """The page of `cbc play`."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.chromium = Chromium()
+        cls.browser = cls.chromium.__enter__()
+
+    def setUp(self):
+        super().setUp()
+        self.process = subprocess.Popen([self.program, "play", *self.files, "--address", "127.0.0.1:0"],
                                         cwd=self.folder, stderr=subprocess.PIPE, text=True)
         self.addCleanup(self.end)
         self.address = re.search(r"http\S+", self.process.stderr.readline()).group()
-        self.browser.set_size(1600, 1000)
         self.open(address=self.address)
 
     def tearDown(self):
