@@ -333,7 +333,7 @@ class Continued(Installed):
         self.open(address=address)
 
     def test_a_mission_at_an_event(self):
-        self.files["m.yaml"].write_text(self.MISSION + "- situation: {LIGHT: dark}\n- stop: DRIVE\n")
+        self.files["m.yaml"].write_text(self.MISSION + "- {situation: {LIGHT: dark}, at: 2}\n- stop: DRIVE\n")
         self.draw("solve", "m.yaml")
         self.ask("page.choose(1)")
         events = self.ask("page.run.events.length")
