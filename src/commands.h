@@ -17,6 +17,7 @@
   row(tune) \
   row(graph) \
   row(rename) \
+  row(play) \
   row(lsp) \
   row(schema) \
   row(help) \

@@ -217,9 +217,9 @@ constexpr const char* completion_footer =
 
 void add_completion_command(Program& program) {
   const auto shell = std::make_shared<std::string>();
-  Command& command = program.add_command(
-      "completion", "Prints a script that completes command lines of cbc in a shell.",
-      {{"bash|zsh|fish"}, completion_examples, completion_footer});
+  Command& command =
+      program.add_command("completion", "Prints a script by which a shell completes cbc.",
+                          {{"bash|zsh|fish"}, completion_examples, completion_footer});
   command
       .argument("SHELL", *shell, one_of("", {"bash", "zsh", "fish"}),
                 "The shell: bash, zsh or fish")

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/catalog/situation.h"
@@ -14,6 +15,7 @@
 #include "core/report/event_description.h"
 #include "core/script/state_json.h"
 #include "core/support/json.h"
+#include "page/script_element.h"
 #include "page_files.h"
 
 namespace cbc {
@@ -63,18 +65,6 @@ namespace {
 /// Failed expectations that a full page has of a run: their messages stand without their events.
 constexpr std::uint64_t most_later_failures = 100;
 
-/// Adds JSON to a script element, which ends at the first "</script" wherever it is, and is parsed
-/// differently after "<!--". In JSON, "<" occurs in strings only.
-void add_to_script_element(std::string& text, std::string_view json) {
-  for (const char character : json) {
-    if (character == '<') {
-      text += "\\u003c";
-    } else {
-      text += character;
-    }
-  }
-}
-
 /// `data`: in parts. `sources`: what the page may connect to, for its security policy.
 std::string make_page(std::initializer_list<std::string_view> data, std::string_view sources) {
   std::string page(page_before_sources);
@@ -87,16 +77,46 @@ std::string make_page(std::initializer_list<std::string_view> data, std::string_
 
 }  // namespace
 
+void HtmlReport::continue_in(const std::string& simulator,
+                             std::function<const std::string*(const CompiledCatalog&)> text_of) {
+  text_of_ = std::move(text_of);
+  simulator_json_ = R"(,"simulator":)";
+  append_text(simulator_json_, "file://" + percent_encode(simulator));
+}
+
+bool HtmlReport::takes_text(std::size_t size) {
+  // A catalog and a mission go into one address, which browsers take up to 2 MB.
+  constexpr std::size_t most_of_one = std::size_t{1} << 19;
+  constexpr std::size_t most_of_all = std::size_t{1} << 23;
+  if (size > most_of_one || text_size_ + size > most_of_all) return false;
+  text_size_ += size;
+  return true;
+}
+
+void HtmlReport::add_catalog(const CompiledCatalog& catalog) {
+  if (!catalogs_.empty()) catalogs_json_ += ',';
+  catalogs_json_ += catalog_of_page(catalog);
+  catalogs_.push_back(&catalog);
+  const std::string* const text = text_of_ ? text_of_(catalog) : nullptr;
+  have_text_.push_back(text != nullptr && takes_text(text->size()));
+  if (!have_text_.back()) return;
+  catalogs_json_.pop_back();
+  catalogs_json_ += R"(,"text":)";
+  append_text(catalogs_json_, *text);
+  catalogs_json_ += '}';
+}
+
 void HtmlReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
-  auto place = std::find(catalogs_.begin(), catalogs_.end(), &catalog);
-  if (place == catalogs_.end()) {
-    if (!catalogs_.empty()) catalogs_json_ += ',';
-    catalogs_json_ += catalog_of_page(catalog);
-    place = catalogs_.insert(place, &catalog);
-  }
+  const auto found = std::find(catalogs_.begin(), catalogs_.end(), &catalog);
+  const auto place = static_cast<std::size_t>(found - catalogs_.begin());
+  if (found == catalogs_.end()) add_catalog(catalog);
   JsonWriter json(runs_json_);
   json.open('{');
-  json.write("catalog", place - catalogs_.begin());
+  json.write("catalog", place);
+  if (have_text_[place] && !script.steps.empty()) {
+    const std::string mission = write_script(catalog, script, "");
+    if (takes_text(mission.size())) json.write("mission", mission);
+  }
   json.key("situation");
   json::situation.write(json, json::entries_of(script.situation, catalog), catalog);
   json.flush();
@@ -157,7 +177,7 @@ void HtmlReport::end() { json_.end(); }
 
 std::string HtmlReport::page() {
   return make_page({R"({"catalogs":)", catalogs_json_, R"(],"runs":)", runs_json_, R"(],"report":)",
-                    memory_.text(), properties_json_, "}"},
+                    memory_.text(), properties_json_, simulator_json_, "}"},
                    "'none'");
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,6 +44,13 @@ class HtmlReport final : public SolveReport {
   void end_run(const RunResult& result, const std::string& error) override;
   void end() override;
 
+  /// Lets the runs go on in the simulator, a page in a file: gives this page the texts of catalogs
+  /// and missions, as long as all of them are not too long. Call it before the first run.
+  /// `text_of`: the text of a catalog in YAML, which lives as long as this object; null if it is
+  /// not known.
+  void continue_in(const std::string& simulator,
+                   std::function<const std::string*(const CompiledCatalog&)> text_of);
+
   /// Makes it a page of properties: the runs are those of the properties that have one, in their
   /// order. The page shows the last event of a run first: that is what its script leads to.
   void list_properties(const std::vector<PropertyOfPage>& properties);
@@ -55,6 +63,9 @@ class HtmlReport final : public SolveReport {
 
  private:
   [[nodiscard]] bool is_full() { return memory_.size() >= limit_; }
+  void add_catalog(const CompiledCatalog& catalog);
+  /// Whether there is room for a further text that goes to the simulator; if so, it is taken.
+  [[nodiscard]] bool takes_text(std::size_t size);
 
   MemoryFile memory_;
   JsonReport json_;
@@ -63,9 +74,13 @@ class HtmlReport final : public SolveReport {
   std::uint64_t left_out_of_run_ = 0;
   std::uint64_t failures_left_ = 0;  ///< of the run, that are taken although the page is full
   std::vector<const CompiledCatalog*> catalogs_;
+  std::vector<bool> have_text_;  ///< of these: the page has their texts
   std::string catalogs_json_ = "[";
   std::string runs_json_ = "[";
   std::string properties_json_;  ///< a member of the data, if it is a page of properties
+  std::string simulator_json_;   ///< another one, if runs may go on there
+  std::function<const std::string*(const CompiledCatalog&)> text_of_;
+  std::size_t text_size_ = 0;  ///< of all texts for the simulator
 };
 
 /// What the page has to know about a catalog, as JSON on one line: tasks, situation variables and

@@ -80,14 +80,12 @@ constexpr const char* solve_footer =
     "\n"
     "Read more: man cbc-solve, man cbc-events (how to write a script)";
 
-constexpr const char* default_address = "127.0.0.1:8227";
-
 Values page_address() {
   Values values;
   values.placeholder = "[ADDRESS:PORT]";
   values.expected = "ADDRESS:PORT";
   values.names = [] {
-    return std::vector<NameWithHelp>{{default_address, "this machine only"},
+    return std::vector<NameWithHelp>{{serve::default_address, "this machine only"},
                                      {"127.0.0.1:0", "a free port"},
                                      {"0.0.0.0:8227", "also for other machines"}};
   };
@@ -96,7 +94,7 @@ Values page_address() {
     return fmt::format(
         "expected a numeric ADDRESS:PORT (such as {}, [::1]:0, or 0.0.0.0:8080 for all networks), "
         "found {}; without a value, --serve stands last or before another option",
-        default_address, quote(text));
+        serve::default_address, quote(text));
   };
   return values;
 }
@@ -158,7 +156,7 @@ void add_stream_options(Command& command, StreamOptions& options) {
       .only_with({"--format jsonl"})
       .not_with({"--replay"}, "a replay takes its times from the log");
   command.option("--serve", options.serve, page_address(), "Show the stream in a browser")
-      .value_or(default_address)
+      .value_or(serve::default_address)
       .only_with({"--format jsonl"})
       .not_with({"--replay"}, "a log is complete, so --html draws it");
   command.option("--replay", options.replay, input("LOG", ValueKind::file),

@@ -21,6 +21,7 @@
 #include "core/support/system.h"
 #include "core/support/wording.h"
 #include "page/html_report.h"
+#include "page/simulator.h"
 #include "runtime/base/text.h"
 #include "solve/report/solve_report.h"
 #include "solve/solve.h"
@@ -168,6 +169,14 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
 int draw_missions(const std::vector<Mission>& missions, const SolveOptions& options,
                   SolveReport& report) {
   HtmlReport picture(event_additions(options));
+  if (const auto simulator = installed_simulator()) {
+    picture.continue_in(*simulator, [&](const CompiledCatalog& catalog) {
+      const auto mission = std::find_if(missions.begin(), missions.end(), [&](const Mission& one) {
+        return one.catalog.get() == &catalog;
+      });
+      return mission == missions.end() ? nullptr : mission->source->text.get();
+    });
+  }
   ReportPair both(report, picture);
   const int status = run_missions(missions, options, both);
   tell_left_out(*options.html, picture.left_out());

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <random>
 #include <string>
 #include <string_view>
 #include <unistd.h>
@@ -39,12 +38,6 @@ namespace {
 constexpr std::size_t longest_event = std::size_t{1} << 20;
 /// More warnings about a stream would only hide other messages.
 constexpr int most_warnings = 20;
-
-/// Tells this run from those that another process serves at the same address.
-std::string make_token() {
-  std::random_device random;
-  return fmt::format("{:08x}{:08x}", random(), random());
-}
 
 std::string without_line_end(std::string line) {
   line.pop_back();
@@ -89,10 +82,15 @@ std::unique_ptr<LivePage> LivePage::open(const CompiledCatalog& catalog, std::st
   auto live = std::make_unique<LivePage>(catalog);
   const std::string begin = state_of_page(catalog, index, coordinator.now(), coordinator.state());
   live->history_.begin_part(begin);
-  const std::string token = make_token();
-  std::string page = stream_page(catalog, {std::move(name), begin, "", 0, "", token});
-  auto [server, error] =
-      serve::Server::start(*serve::read_address(address), {std::move(page), token}, live->history_);
+  // Tells this run from those that another process serves at the same address.
+  const std::string token = serve::make_token();
+  serve::Server::Site site;
+  site.page = [page = stream_page(catalog, {std::move(name), begin, "", 0, "", token})] {
+    return page;
+  };
+  site.history = &live->history_;
+  site.token = token;
+  auto [server, error] = serve::Server::start(*serve::read_address(address), std::move(site));
   if (server == nullptr) {
     complain("--serve: cannot serve a page at {}: {}", quote(address), error);
     return nullptr;

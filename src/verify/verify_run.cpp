@@ -56,6 +56,7 @@ class Call {
         questions_(std::move(questions)),
         catalog_(*questions_.catalog->compiled) {
     result_.catalog = questions_.catalog->compiled;
+    result_.text = questions_.catalog->text;
     result_.limits = limits_of(options.limits);
     result_.wants_cut_sets = !options.cut_sets.empty();
   }

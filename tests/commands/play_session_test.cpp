@@ -15,7 +15,7 @@
 #include "core/script/reader.h"
 #include "core/script/runner.h"
 #include "core/yaml/document.h"
-#include "play/session.h"
+#include "wasm/session.h"
 #include "support/catalog_files.h"
 #include "support/read_file.h"
 

@@ -24,9 +24,17 @@ class ServerTest : public testing::Test {
  protected:
   ServerTest() {
     history_.begin_part("0");
-    auto [server, error] = Server::start({"127.0.0.1", 0}, {"<!DOCTYPE html>", "TOKEN"}, history_);
+    auto [server, error] = Server::start({"127.0.0.1", 0}, site());
     EXPECT_EQ(error, "");
     server_ = std::move(server);
+  }
+
+  [[nodiscard]] Server::Site site() const {
+    Server::Site site;
+    site.page = [] { return "<!DOCTYPE html>"; };
+    site.history = &history_;
+    site.token = "TOKEN";
+    return site;
   }
 
   [[nodiscard]] Client connect() const { return Client(server_->address().port); }
@@ -174,15 +182,14 @@ TEST_F(ServerTest, ServesAFewOfVeryManyClients) {
 }
 
 TEST_F(ServerTest, ListensWhereItIsTold) {
-  const History history{{}};
-  const auto [second, error] = Server::start(server_->address(), {}, history);
+  const auto [second, error] = Server::start(server_->address(), site());
   EXPECT_EQ(second, nullptr);
   EXPECT_EQ(error, "Address already in use");
-  EXPECT_EQ(Server::start({"192.0.2.1", 0}, {}, history).second, "Cannot assign requested address");
+  EXPECT_EQ(Server::start({"192.0.2.1", 0}, site()).second, "Cannot assign requested address");
 }
 
 TEST_F(ServerTest, SpeaksIpv6) {
-  const auto [server, reason] = Server::start({"::1", 0}, {}, history_);
+  const auto [server, reason] = Server::start({"::1", 0}, site());
   if (server == nullptr) GTEST_SKIP() << "no IPv6 here: " << reason;
   EXPECT_EQ(to_url(server->address()),
             "http://[::1]:" + std::to_string(server->address().port) + "/");

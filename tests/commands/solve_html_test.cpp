@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -238,6 +239,67 @@ TEST(SolveHtml, ListsPropertiesWithTheirRuns) {
                              "description": "proved for 3 reachable states", "run": null},
                             {"title": "p.yaml:2: two", "statement": "GO runs", "result": "violated",
                              "description": "violated after 1 event", "run": 0}])"));
+}
+
+TEST(SolveHtml, GivesTheSimulatorItsTexts) {
+  const std::string text = std::string(plain_catalog) + "# </script>\n";
+  const CompiledCatalog catalog = test::compile_text(text);
+  const Script script = read(catalog, plain_script);
+  HtmlReport html;
+  html.continue_in("/usr/share/cbc play/cbc-play.html", [&](const CompiledCatalog& asked) {
+    return &asked == &catalog ? &text : nullptr;
+  });
+  run(catalog, script, html);
+  const CompiledCatalog other = test::compile_text(plain_catalog);  // whose text nobody knows
+  run(other, read(other, plain_script), html);
+  html.end();
+  const json data = json::parse(data_text(html.page()));
+  EXPECT_EQ(data["simulator"], "file:///usr/share/cbc%20play/cbc-play.html");
+  EXPECT_EQ(data["catalogs"][0]["text"], text);
+  const std::string mission = data["runs"][0]["mission"];
+  const Script again = read(catalog, mission);
+  EXPECT_EQ(again.steps.size(), script.steps.size());
+  EXPECT_EQ(again.situation.availability.size(), 1U);
+  EXPECT_FALSE(data["catalogs"][1].contains("text"));
+  EXPECT_FALSE(data["runs"][1].contains("mission"));
+}
+
+TEST(SolveHtml, GivesNoTextsThatAreTooLong) {
+  constexpr std::size_t most_runs = 1000;
+  const CompiledCatalog catalog = test::compile_text(plain_catalog);
+  std::string events = "events:\n";
+  for (int i = 0; i < 1000; ++i) events += "- start: GO\n";
+  const Script script = read(catalog, events);
+  const std::string text(plain_catalog);
+  HtmlReport html({}, 1 << 16);
+  html.continue_in("/page.html", [&](const CompiledCatalog&) { return &text; });
+  for (std::size_t i = 0; i < most_runs; ++i) {
+    html.begin_run(catalog, script);
+    html.end_run({}, "");
+  }
+  const std::string huge = text + std::string(std::size_t{1} << 20, '#');
+  const CompiledCatalog large = test::compile_text(plain_catalog);
+  HtmlReport other;
+  other.continue_in("/page.html", [&](const CompiledCatalog&) { return &huge; });
+  run(large, script, other);
+  html.end();
+  other.end();
+  const json runs = json::parse(data_text(html.page()))["runs"];
+  const auto with_mission = std::count_if(runs.begin(), runs.end(),
+                                          [](const json& one) { return one.contains("mission"); });
+  EXPECT_GT(with_mission, 100);
+  EXPECT_LT(with_mission, 1000);
+  EXPECT_LT(html.page().size(), std::size_t{12} << 20);
+  const json data = json::parse(data_text(other.page()));
+  EXPECT_FALSE(data["catalogs"][0].contains("text"));
+  EXPECT_FALSE(data["runs"][0].contains("mission"));
+}
+
+TEST(SolveHtml, HasNoTextsWithoutTheSimulator) {
+  const Made made = make(plain_catalog, plain_script);
+  EXPECT_FALSE(made.data.contains("simulator"));
+  EXPECT_FALSE(made.data["catalogs"][0].contains("text"));
+  EXPECT_FALSE(made.data["runs"][0].contains("mission"));
 }
 
 TEST(SolveHtml, WithoutRunsIsAPageStill) {

@@ -7,7 +7,7 @@ from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parents[2] / "man"
 WRITTEN_BY_TEST = r'.\" From here on written by a test'
-VERBS = ("init", "lint", "compile", "solve", "verify", "coverage", "sweep", "tune", "graph", "rename")
+VERBS = ("init", "lint", "compile", "solve", "verify", "coverage", "sweep", "tune", "graph", "rename", "play")
 
 
 def all_pages():

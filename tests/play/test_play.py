@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -317,6 +318,173 @@ class Proofs(PlayCase):
         self.prove("")
         self.wait("!byId('prove').disabled")
         self.assertIn("states", self.text("#proofs"))
+
+
+class Installed(PlayCase):
+    """With a program beside which the page is found."""
+
+    MISSION = "# by hand\ncatalog: robot.yaml\nevents:\n- start: DRIVE\n- expect: {running: {DRIVE: DRIVE_WITH_CAMERA}}\n"
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        for place in ("bin", "share/cbc/play"):
+            (self.folder / place).mkdir(parents=True)
+        self.program = self.folder / "bin/cbc"
+        shutil.copy(PROGRAM, self.program)
+        (self.folder / "share/cbc/play/cbc-play.html").symlink_to(PLAY / "cbc-play.html")
+        self.files = {name: self.folder / name for name in ("robot.yaml", "m.yaml", "p.yaml")}
+        for name, text in (("robot.yaml", FIRST), ("m.yaml", self.MISSION), ("p.yaml", "properties: []\n")):
+            self.files[name].write_text(text)
+        self.browser.set_size(1600, 1000)
+
+
+class Continued(Installed):
+    """The pages of --html, which go on in the simulator."""
+
+    def draw(self, *arguments, program=None):
+        subprocess.run([program or self.program, *arguments, "--html", "page.html"], cwd=self.folder, check=False,
+                       stdout=subprocess.DEVNULL)
+        self.browser.load((self.folder / "page.html").as_uri())
+        self.browser.settle()
+
+    def go_on(self):
+        address = self.ask("new Promise((resolve) => { open = resolve; byId('continue').click(); })")
+        self.assertTrue(address.startswith((self.folder / "share/cbc/play/cbc-play.html").as_uri() + "#s=1."))
+        self.open(address=address)
+
+    def test_a_mission_at_an_event(self):
+        self.files["m.yaml"].write_text(self.MISSION + "- {situation: {LIGHT: dark}, at: 2}\n- stop: DRIVE\n")
+        self.draw("solve", "m.yaml")
+        self.ask("page.choose(1)")
+        events = self.ask("page.run.events.length")
+        self.go_on()
+        self.assertEqual(self.ask("[play.simulation.index, play.simulation.page.run.size]"), [1, events])
+        self.assertEqual(self.ask("[play.catalog.text, play.simulation.catalogName]"), [FIRST, "robot.yaml"])
+        self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_CAMERA")
+        self.assertEqual(self.ask("play.simulation.page.run.failures.size"), 0)
+        self.press("stop DRIVE")
+        self.assertEqual(self.running(), {})
+
+    def test_a_counterexample(self):
+        self.files["p.yaml"].write_text("catalog: robot.yaml\nproperties:\n"
+                                        "- never: {running: {DRIVE: DRIVE_WITH_LIDAR}}\n")
+        self.draw("verify", "p.yaml")
+        self.go_on()
+        self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_LIDAR")
+
+    def test_without_the_simulator(self):
+        (self.folder / "share/cbc/play/cbc-play.html").unlink()
+        self.draw("solve", "m.yaml")
+        self.assertTrue(self.ask("byId('continue').hidden"))
+        self.assertNotIn(FIRST.splitlines()[0], (self.folder / "page.html").read_text())
+
+
+class Files(Installed):
+    """The page of `cbc play`."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.chromium = Chromium()
+        cls.browser = cls.chromium.__enter__()
+
+    def setUp(self):
+        super().setUp()
+        self.process = subprocess.Popen([self.program, "play", *self.files, "--address", "127.0.0.1:0"],
+                                        cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(self.end)
+        self.address = re.search(r"http\S+", self.process.stderr.readline()).group()
+        self.open(address=self.address)
+
+    def tearDown(self):
+        # Chromium itself reports answers that refuse something.
+        self.browser.events[:] = [event for event in self.browser.events if event.get("method") != "Log.entryAdded"
+                                  or event["params"]["entry"]["source"] != "network"]
+        super().tearDown()
+
+    def end(self):
+        self.process.terminate()
+        self.process.communicate(timeout=PATIENCE)
+        self.assertEqual(self.process.returncode, 0)
+
+    def save(self, role, button=1):
+        """Presses a button of the pane, the first one being 1, and waits until all is said about it."""
+        self.ask(f"play.chooseTab('{role}'); byId('note').textContent = ''")
+        self.click(f"#file-{role} button:nth-of-type({button})")
+        self.wait("byId('note').textContent !== ''")
+        return self.text("#note")
+
+    def test_what_is_edited_is_saved(self):
+        self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_CAMERA")  # the mission was run
+        changed = FIRST.replace("suitability: 80", "suitability: 99")
+        self.write_in("catalog", changed)
+        self.wait("play.simulation.page.run.size > 0 && play.simulation.page.run.running(1).DRIVE === 'DRIVE_WITH_LIDAR'")
+        self.assertEqual(self.files["robot.yaml"].read_text(), FIRST)  # not unless it is wanted
+        self.assertEqual(self.save("catalog"), "robot.yaml is saved.")
+        self.assertEqual(self.files["robot.yaml"].read_text(), changed)
+        self.write_in("catalog", FIRST)
+        self.assertEqual(self.save("catalog"), "robot.yaml is saved.")
+        self.assertEqual(self.files["robot.yaml"].read_text(), FIRST)
+        self.write_in("properties", "properties:\n- {name: é, can_start: DRIVE}\n")
+        self.assertEqual(self.save("properties"), "p.yaml is saved.")
+        self.assertEqual(self.files["p.yaml"].read_text(), "properties:\n- {name: é, can_start: DRIVE}\n")
+        self.assertEqual(self.files["m.yaml"].read_text(), self.MISSION)
+
+    def test_a_mission_is_saved_as_it_is_shown(self):
+        self.ask("play.chooseTab('mission')")
+        self.click("#events tbody tr:nth-child(1)")
+        self.assertEqual(self.ask("play.mission.text"), self.MISSION)
+        self.press("stop DRIVE")
+        self.wait("play.mission.text.includes('stop')")
+        self.assertEqual(self.save("mission"), "m.yaml is saved.")
+        text = self.files["m.yaml"].read_text()
+        self.assertEqual(text, self.ask("play.mission.text"))
+        done = subprocess.run([PROGRAM, "solve", "m.yaml", "--format", "json"], cwd=self.folder, check=True,
+                              stdout=subprocess.PIPE)
+        self.assertEqual([event["verb"] for event in json.loads(done.stdout)["runs"][0]["events"]], ["start", "stop"])
+
+    def test_a_conflict(self):
+        other = FIRST + "# by another program\n"
+        self.files["robot.yaml"].write_text(other)
+        mine = FIRST + "# on the page\n"
+        self.write_in("catalog", mine)
+        self.assertEqual(self.save("catalog"), "robot.yaml was not saved.")
+        self.assertIn("robot.yaml has another text by now", self.text("#file-catalog"))
+        self.assertEqual(self.files["robot.yaml"].read_text(), other)
+        self.click("#file-catalog button:nth-of-type(2)")
+        self.assertEqual(self.ask("play.catalog.text"), other)
+        self.write_in("catalog", other.replace("program", "page"))
+        self.assertEqual(self.save("catalog"), "robot.yaml is saved.")
+        self.assertEqual(self.files["robot.yaml"].read_text(), other.replace("program", "page"))
+        self.files["robot.yaml"].unlink()
+        self.assertEqual(self.save("catalog"), "robot.yaml was not saved.")
+        self.assertIn("cannot be read any more", self.text("#file-catalog"))
+        self.assertEqual(self.save("catalog"), "robot.yaml is saved.")
+        self.assertEqual(self.files["robot.yaml"].read_text(), other.replace("program", "page"))
+
+    def test_other_sessions_are_no_files(self):
+        link = self.ask("play.link()")
+        self.ask("play.openExample(examples[1], false).then(() => true)")
+        self.idle()
+        self.assertTrue(self.ask("byId('file-catalog').hidden && byId('file-mission').hidden"))
+        self.open(address=link)
+        self.assertEqual(self.ask("play.catalog.text"), FIRST)
+        self.assertTrue(self.ask("byId('file-catalog').hidden"))
+        self.assertNotIn("save to robot.yaml", self.ask("play.sessionNow().then(pageWith)"))
+
+    def test_ends_of_lines_stay(self):
+        self.files["robot.yaml"].write_bytes(FIRST.replace("\n", "\r\n").encode())
+        self.open(address=self.address)
+        self.assertEqual(self.save("catalog"), "robot.yaml is saved.")
+        self.assertEqual(self.files["robot.yaml"].read_bytes(), FIRST.replace("\n", "\r\n").encode())
+
+    def test_a_program_that_has_ended(self):
+        self.process.terminate()
+        self.process.wait(PATIENCE)
+        self.assertIn("does not answer", self.save("catalog"))
+        self.press("stop DRIVE")  # the simulator goes on
+        self.assertEqual(self.running(), {})
 
 
 class Page(PlayCase):

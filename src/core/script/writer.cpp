@@ -107,12 +107,14 @@ std::string write_script(const CompiledCatalog& catalog, const Script& script,
     text += fmt::format("situation: {}\n", situation_map(catalog, script.situation));
   }
   text += "events:\n";
+  Microseconds time = 0;
   for (std::size_t place = 0; place < script.steps.size(); ++place) {
     const Step& step = script.steps[place];
     if (place < comments.size()) text += as_comment(comments[place]);
     const std::string event = step_entry(catalog, step);
-    text += fmt::format("- {{at: {}{}{}}}\n", format_decimal(step.time.value_or(0), 6),
-                        event.empty() ? "" : ", ", event);
+    time = step.time.value_or(time);
+    text += fmt::format("- {{at: {}{}{}}}\n", format_decimal(time, 6), event.empty() ? "" : ", ",
+                        event);
   }
   return text;
 }

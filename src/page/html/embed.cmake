@@ -13,7 +13,7 @@ set(scripts
     ink.js view.js marks.js rows.js painter.js timeline.js gestures.js minimap.js # the timeline
     graph_layout.js state_graph.js graph_pane.js # the graph of the state
     details.js events_table.js search.js overview.js signs.js legend.js # beside it
-    address.js live.js page.js start.js)
+    continue.js address.js live.js page.js start.js)
 
 # The base64 form of a SHA-256 hash in hexadecimal.
 function(to_base64 hash result)

@@ -69,6 +69,8 @@ class Page {
     on('zoom-out', 'click', () => timeline.zoomBy(1 / 1.6));
     on('fit', 'click', () => timeline.fit());
     on('save', 'click', () => this.save());
+    // Events of other parts of the robot are not on a page of properties, so their numbers are others.
+    on('continue', 'click', () => openSimulator(this.run.continuation, this.run.property === null ? this.number : undefined));
     on('help-open', 'click', () => byId('help').showModal());
     on('search', 'input', () => this.search());
     on('outcome', 'change', () => this.search());
@@ -159,6 +161,7 @@ class Page {
     byId('subtitle').textContent = `catalog ${run.data.catalog}`;
     byId('names').replaceChildren(...[...run.catalog.taskPlace.keys(), ...run.catalog.behaviors.keys()]
       .map((name) => Object.assign(document.createElement('option'), { value: name })));
+    byId('continue').hidden = run.continuation === null;
     this.fillCounts();
     this.table.show(run);
     this.timeline.show(run, Math.min(1, run.size));

@@ -18,6 +18,7 @@ class Run {
     this.data = data;
     this.leftOut = leftOut;
     this.property = property;
+    this.continuation = null; // in the simulator, if that is possible
     this.catalog = catalog;
     this.begin = { ...newState, time: Math.min(0, data.events[0]?.time ?? 0), ...begin };
     this.events = [];
@@ -353,8 +354,10 @@ class Run {
 function readRuns(data) {
   const catalogs = data.catalogs.map((catalog) => new Catalog(catalog));
   return data.report.runs.map((run, place) => {
-    const { catalog, situation, state, left_out: leftOut } = data.runs[place];
+    const { catalog, situation, state, mission, left_out: leftOut } = data.runs[place];
     const property = data.properties?.find((one) => one.run === place);
-    return new Run(run, catalogs[catalog], { situation, ...state }, leftOut, property);
+    const shown = new Run(run, catalogs[catalog], { situation, ...state }, leftOut, property);
+    shown.continuation = continuationOf(run, data.catalogs[catalog].text, mission, data.simulator);
+    return shown;
   });
 }

@@ -19,7 +19,7 @@ const source = (...names) => readFileSync(path.join(root, 'src', ...names), 'utf
 const listOf = (name) => new RegExp(`set\\(${name} ?([^)]*)\\)`).exec(source('page', 'html', 'embed.cmake'))[1]
   .replaceAll(/#.*$/gm, '').split(/\s+/).filter((word) => word !== '');
 const pageScripts = listOf('scripts').filter((name) => !['address.js', 'live.js', 'start.js'].includes(name));
-const ownScripts = ['engine.js', 'session.js', 'robot.js', 'prove.js', 'share.js', 'play.js'];
+const ownScripts = ['engine.js', 'session.js', 'robot.js', 'prove.js', 'share.js', 'files.js', 'play.js'];
 const between = (text, begin, end) => text.slice(text.indexOf(begin), text.indexOf(end) + end.length);
 
 const bundled = await esbuild.build({
@@ -33,7 +33,7 @@ const script = [
   bundled.outputFiles[0].text, 'const { TextEditor } = editorBundle;', `const examples = ${examples};`,
   minified([...pageScripts.map((name) => source('page', 'html', name)), ...ownScripts.map((name) => source('page', 'play', name))].join('\n')),
 ].join('\n').replaceAll('</script', '<\\/script');
-const worker = minified([source('play', 'cbc.js'), source('page', 'play', 'worker.js')].join('\n'));
+const worker = minified([source('wasm', 'cbc.js'), source('page', 'play', 'worker.js')].join('\n'));
 const workerScript = `${readFileSync(path.join(program, 'play.js'), 'utf8')}\n${worker}`.replaceAll('</script', '<\\/script');
 const wasm = readFileSync(path.join(program, 'play.wasm'));
 

@@ -21,6 +21,12 @@ class Play {
     this.prover = new Prover(
       { begin: byId('prove'), end: byId('prove-end'), limit: byId('prove-limit'), progress: byId('prove-progress'), list: byId('proofs') },
       { texts: () => ({ catalog: this.catalog.text, properties: this.properties.text }), onScript: (text) => this.openMission(text) });
+    const onNote = (text, isBad) => this.note(text, isBad);
+    this.savers = {
+      catalog: new FileSaver('catalog', this.catalog, { onNote, load: (text) => this.openCatalog(text) }),
+      mission: new FileSaver('mission', this.mission, { onNote, load: (text) => this.simulation.load(text) }),
+      properties: new FileSaver('properties', this.properties, { onNote, load: () => {} }),
+    };
     this.clock = null;
     this.setUpBar();
     this.setUpTabs();
@@ -41,7 +47,7 @@ class Play {
     const [first] = examples.sessions;
     try {
       const saved = JSON.parse(partOf('saved-session'));
-      if (shared !== null) return await this.openSession(await unpackSession(shared));
+      if (shared !== null) return await this.openSession({ ...(await unpackSession(shared)), files: {} });
       if (saved !== null) return await this.openSession(checkSession(saved));
       if (address.has('example')) {
         return await this.openExample(address.get('example'), Number.parseInt(address.get('event') ?? '', 10));
@@ -65,7 +71,8 @@ class Play {
                              properties: textOf(found.properties), index: Number.isNaN(index) ? undefined : index });
   }
 
-  async openSession({ catalog, mission = '', properties = '', name = 'robot.yaml', index }) {
+  /** `files`: where its texts come from, if that is known. */
+  async openSession({ catalog, mission = '', properties = '', name = 'robot.yaml', index, files = {} }) {
     byId('welcome').hidden = true;
     this.stopClock();
     this.note('', false);
@@ -74,6 +81,7 @@ class Play {
     this.properties.text = properties;
     this.mission.text = mission;
     byId('proofs').replaceChildren();
+    for (const [role, text] of Object.entries({ catalog, mission, properties })) this.savers[role].open(files[role], text);
     await this.simulation.open(catalog, mission === '' ? null : mission);
     if (index !== undefined && this.simulation.isOpen) await this.simulation.goTo(Math.min(index, this.simulation.page.run.size));
   }
@@ -85,7 +93,7 @@ class Play {
       const mission = simulation.isOpen && simulation.page.run.size > 0 ? await simulation.mission() : null;
       // What came of it is what is asked now.
       const events = mission === null ? null : withoutExpectations(mission);
-      simulation.open(text, events);
+      simulation.open(text, events, events === mission);
     });
   }
 
@@ -315,7 +323,8 @@ class Play {
 
   /** With the name of its catalog, as a file has it. */
   async missionText() {
-    return `catalog: ${this.simulation.catalogName}\n${await this.simulation.mission()}`;
+    const mission = await this.simulation.mission();
+    return /^catalog:/m.test(mission) ? mission : `catalog: ${this.simulation.catalogName}\n${mission}`;
   }
 
   /** Whatever takes long can be ended. */

@@ -13,6 +13,7 @@ class Simulation {
     this.due = { timeouts: {}, next: null, now: 0 };
     this.work = Promise.resolve(); // what was asked for is done one after the other
     this.index = 0; // of the present event
+    this.loaded = null; // the mission, as long as nothing else was done
   }
 
   /** One thing after the other. What fails is told, and the next one goes on. */
@@ -27,8 +28,8 @@ class Simulation {
     if (error instanceof Ended || error instanceof Failed) this.isOpen = false;
   }
 
-  /** A catalog; `mission`, if not null, is run with it. Returns whether it could be used. */
-  open(text, mission = null) {
+  /** A catalog; `mission`, if not null, is run with it. `isWritten`: somebody wants its text as it is. */
+  open(text, mission = null, isWritten = true) {
     return this.do(async () => {
       this.catalogText = text;
       const answer = await this.engine.ask({ do: 'open', catalog: text, name: this.catalogName });
@@ -42,8 +43,9 @@ class Simulation {
       this.catalog = new Catalog(answer.catalog);
       const moves = (await this.engine.ask({ do: 'what_if' })).report.moves;
       this.view.onCatalog(this.catalog, new Set(moves.filter((move) => move.verb === 'start').map((move) => move.name)));
+      this.loaded = null;
       this.showRun(answer.begin, [], []);
-      if (mission !== null) await this.loadNow(mission);
+      if (mission !== null) await this.loadNow(mission, isWritten);
       else await this.arrive();
     });
   }
@@ -52,7 +54,7 @@ class Simulation {
     return this.do(() => this.loadNow(mission));
   }
 
-  async loadNow(mission) {
+  async loadNow(mission, isWritten = true) {
     const answer = await this.engine.ask({ do: 'load', mission, name: 'mission.yaml' });
     const findings = findingsOf(answer);
     this.view.onFindings('mission', findings);
@@ -61,6 +63,7 @@ class Simulation {
       if (first !== undefined) this.view.onNote(`the mission does not fit: line ${first.line}: ${first.message}`, true);
       return this.arrive();
     }
+    this.loaded = isWritten ? mission : null;
     this.showRun(answer.begin, answer.events, answer.failures);
     await this.arrive();
   }
@@ -79,6 +82,7 @@ class Simulation {
     if (!this.isOpen) throw new Error('there is no robot yet: the catalog has errors');
     const answer = await this.engine.ask(request);
     const { first, events, failures, warnings = [] } = answer;
+    this.loaded = null;
     const { run } = this.page;
     if (first > run.size) {
       this.page.growRun(events, failures);
@@ -143,9 +147,11 @@ class Simulation {
     this.view.onState();
   }
 
-  /** The mission up to the present event. */
+  /** The mission up to the present event: its text as it was written, until something else is done. */
   async mission() {
-    return this.isOpen ? (await this.engine.ask({ do: 'mission' })).mission : '';
+    if (!this.isOpen) return '';
+    if (this.loaded !== null && this.index === this.page.run.size) return this.loaded;
+    return (await this.engine.ask({ do: 'mission' })).mission;
   }
 
   /** The mission with all events, also those after the present one, and the index of that: {mission, index}. */

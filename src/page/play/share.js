@@ -1,18 +1,4 @@
-// A session as text: in the address after "#", and in a page that is saved.
-//
-// The address has "s=", the version, a dot, and base64url of deflated JSON: {catalog, name, mission, properties, index}.
-
-const shareVersion = 1;
-
-async function throughStream(bytes, stream) {
-  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
-}
-
-async function packSession(session) {
-  const bytes = await throughStream(new TextEncoder().encode(JSON.stringify(session)), new CompressionStream('deflate-raw'));
-  const text = [...bytes].map((byte) => String.fromCharCode(byte)).join('');
-  return `${shareVersion}.${btoa(text).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '')}`;
-}
+// A session as text: in the address after "#", see packSession, and in a page that is saved.
 
 const mostUnpacked = 20 << 20; // bytes
 

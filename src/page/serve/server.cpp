@@ -23,9 +23,9 @@
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
-#include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
+#include <boost/beast/http/string_body.hpp>
 
 namespace cbc::serve {
 namespace {
@@ -41,7 +41,7 @@ using std::chrono::seconds;
 constexpr std::size_t most_connections = 100;
 constexpr std::uint32_t longest_request = 16384;
 constexpr seconds time_for_request(10);
-constexpr seconds time_for_page(60);   // it may be long, and the network slow
+constexpr seconds time_for_page(60);   // it may be long, as a text, and the network slow
 constexpr seconds time_for_block(30);  // after it a client counts as stalled
 constexpr seconds time_to_close(2);
 constexpr std::size_t block_size = std::size_t{1} << 16;
@@ -77,12 +77,14 @@ std::string too_many() {
   return answer("503 Service Unavailable", "Too many pages of this run are open.");
 }
 
+std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
+
 }  // namespace
 
 /// What the thread of the server does.
 class Server::Loop {
  public:
-  Loop(Site site, const History& history) : site_(std::move(site)), history_(history) {}
+  explicit Loop(Site site) : site_(std::move(site)) {}
 
   /// Returns what went wrong, or nothing.
   std::string listen(const Address& wanted);
@@ -112,7 +114,6 @@ class Server::Loop {
   void look_whether_all_is_sent();
 
   const Site site_;
-  const History& history_;
   std::set<Connection*> connections_;
   std::atomic<bool> has_listeners_ = false;     ///< some connection sends the history
   std::atomic<bool> is_told_ = false;           ///< a handler will look at the history
@@ -137,6 +138,7 @@ class Server::Loop::Connection : public std::enable_shared_from_this<Connection>
 
   void begin() {
     parser_.header_limit(longest_request);
+    parser_.body_limit(most_text);
     stream_.expires_after(time_for_request);
     http::async_read_header(
         stream_, buffer_, parser_,
@@ -150,9 +152,9 @@ class Server::Loop::Connection : public std::enable_shared_from_this<Connection>
   /// Sends what there is of the history, if nothing is being sent.
   void send_history() {
     if (!is_idle_) return;
-    text_ = loop_.history_.read(*reader_, block_size);
+    text_ = loop_.site_.history->read(*reader_, block_size);
     if (!text_.empty()) return send_block();
-    if (loop_.history_.is_over(*reader_)) close();
+    if (loop_.site_.history->is_over(*reader_)) close();
   }
 
   void show_sign() {
@@ -163,52 +165,101 @@ class Server::Loop::Connection : public std::enable_shared_from_this<Connection>
 
  private:
   void respond(error_code error) {
-    const auto& of_requests = http::make_error_code(http::error::bad_method).category();
-    if (error == http::error::end_of_stream || (error && error.category() != of_requests)) {
-      return;  // nobody is there
-    }
+    if (is_gone(error)) return;
     is_sending_ = true;
-    if (error) return send(answer("400 Bad Request", "This request cannot be understood."));
+    if (error) return send(refusal_of(error));
     const auto& request = parser_.get();
-    const auto text = [](beast::string_view view) {
-      return std::string_view(view.data(), view.size());
-    };
-    if (request.method() != http::verb::get) {
-      return send(answer("405 Method Not Allowed", "Only GET is answered.", "Allow: GET\r\n"));
+    const auto method = request.method();
+    const Site& site = loop_.site_;
+    if (method != http::verb::get && (method != http::verb::put || !site.put)) {
+      return send(
+          site.put ? answer("405 Method Not Allowed", "Only GET and PUT are answered.",
+                            "Allow: GET, PUT\r\n")
+                   : answer("405 Method Not Allowed", "Only GET is answered.", "Allow: GET\r\n"));
     }
     if (request.count(http::field::host) != 1) {
       return send(answer("400 Bad Request", "A request names one host."));
     }
-    if (!may_answer_to(loop_.address.host, text(request[http::field::host]))) {
-      return send(answer("403 Forbidden",
-                         "This page is for this machine alone: open " + to_url(loop_.address)));
+    if (!may_answer_to(loop_.address.host, view_of(request[http::field::host]))) {
+      return send(
+          answer("403 Forbidden",
+                 "This page is for this machine alone: open the address that was printed."));
     }
-    const std::string_view target = text(request.target());
+    std::string_view target = view_of(request.target());
+    if (!target.starts_with(site.path)) {
+      return send(answer("404 Not Found", "There is nothing but the page at the printed address."));
+    }
+    target.remove_prefix(site.path.size());
+    method == http::verb::put ? read_text() : show(target);
+  }
+
+  /// `target`: relative to the page.
+  void show(std::string_view target) {
     const std::string_view path = target.substr(0, target.find('?'));
-    if (path == "/") return send_page();
-    if (target == "/events?run=" + loop_.site_.token) {
-      return send_events(text(request["Last-Event-ID"]));
+    if (path.empty()) return send_page();
+    if (loop_.site_.history != nullptr) {
+      if (target == "events?run=" + loop_.site_.token) {
+        return send_events(view_of(parser_.get()["Last-Event-ID"]));
+      }
+      if (path == "events") {
+        return send(answer("404 Not Found", "This run is over; another one is shown here."));
+      }
     }
-    if (path == "/events") {
-      return send(answer("404 Not Found", "This run is over; another one is shown here."));
+    send(answer("404 Not Found", "There is nothing but the page at the printed address."));
+  }
+
+  /// Nobody is there, or what comes is not HTTP at all.
+  static bool is_gone(error_code error) {
+    const auto& of_requests = http::make_error_code(http::error::bad_method).category();
+    return error == http::error::end_of_stream || (error && error.category() != of_requests);
+  }
+
+  static std::string refusal_of(error_code error) {
+    if (error != http::error::body_limit) {
+      return answer("400 Bad Request", "This request cannot be understood.");
     }
-    send(answer("404 Not Found", "There is only one page here: " + to_url(loop_.address)));
+    return answer("413 Payload Too Large",
+                  "The text is larger than " + std::to_string(most_text >> 20U) + " MiB.");
+  }
+
+  /// Only the page itself may save: browsers say of each such request where it comes from.
+  void read_text() {
+    const auto& request = parser_.get();
+    if (request.count(http::field::origin) != 1 ||
+        view_of(request[http::field::origin]) !=
+            "http://" + std::string(view_of(request[http::field::host]))) {
+      return send(answer("403 Forbidden", "Only the page that is served here can save."));
+    }
+    stream_.expires_after(time_for_page);
+    http::async_read(
+        stream_, buffer_, parser_,
+        [self = shared_from_this()](error_code error, std::size_t) { self->take_text(error); });
+  }
+
+  void take_text(error_code error) {
+    if (is_gone(error)) return drop();
+    if (error) return send(refusal_of(error));
+    const auto& request = parser_.get();
+    const std::string_view target = view_of(request.target()).substr(loop_.site_.path.size());
+    const std::size_t end = std::min(target.find('?'), target.size());
+    const Answer reply = loop_.site_.put(
+        target.substr(0, end), target.substr(std::min(end + 1, target.size())), request.body());
+    send(head(reply.status, "application/json", length_of(reply.json)) + reply.json);
   }
 
   void send_page() {
     loop_.was_visited = true;
-    const std::string& page = loop_.site_.page;
-    text_ = head("200 OK", "text/html; charset=utf-8", length_of(page));
-    stream_.expires_after(time_for_page);
-    const std::array<asio::const_buffer, 2> parts{asio::buffer(text_), asio::buffer(page)};
-    asio::async_write(stream_, parts, [self = shared_from_this()](error_code error, std::size_t) {
-      error ? self->drop() : self->close();
-    });
+    send(page_answer(), time_for_page);
   }
 
-  void send(std::string text) {
+  [[nodiscard]] std::string page_answer() const {
+    const std::string page = loop_.site_.page();
+    return head("200 OK", "text/html; charset=utf-8", length_of(page)) + page;
+  }
+
+  void send(std::string text, seconds longest = time_for_block) {
     text_ = std::move(text);
-    stream_.expires_after(time_for_block);
+    stream_.expires_after(longest);
     asio::async_write(stream_, asio::buffer(text_),
                       [self = shared_from_this()](error_code error, std::size_t) {
                         error ? self->drop() : self->close();
@@ -216,7 +267,7 @@ class Server::Loop::Connection : public std::enable_shared_from_this<Connection>
   }
 
   void send_events(std::string_view last_id) {
-    reader_ = loop_.history_.reader_after(last_id);
+    reader_ = loop_.site_.history->reader_after(last_id);
     loop_.has_listeners_ = true;
     watch();
     text_ = head("200 OK", "text/event-stream") + "retry: 1000\n\n";
@@ -278,7 +329,7 @@ class Server::Loop::Connection : public std::enable_shared_from_this<Connection>
   Loop& loop_;
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_{longest_request};
-  http::request_parser<http::empty_body> parser_;
+  http::request_parser<http::string_body> parser_;
   std::string text_;  ///< that is being sent
   std::array<char, 4096> rest_{};
   std::size_t read_ = 0;                   ///< of the rest
@@ -395,9 +446,8 @@ Server::~Server() {
   thread_.join();
 }
 
-std::pair<std::unique_ptr<Server>, std::string> Server::start(const Address& address, Site site,
-                                                              const History& history) {
-  auto loop = std::make_unique<Loop>(std::move(site), history);
+std::pair<std::unique_ptr<Server>, std::string> Server::start(const Address& address, Site site) {
+  auto loop = std::make_unique<Loop>(std::move(site));
   std::unique_ptr<Server> server;
   std::string error = loop->listen(address);
   try {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +21,9 @@ struct Address {
   std::uint16_t port = 0;
 };
 
+/// Where pages are served unless something else is wanted.
+inline constexpr const char* default_address = "127.0.0.1:8227";
+
 /// Reads ADDRESS:PORT; the address of IPv6 is in brackets, and "localhost" is 127.0.0.1. Names are
 /// not looked up. Empty if it is something else.
 [[nodiscard]] std::optional<Address> read_address(std::string_view text);
@@ -35,21 +40,42 @@ struct Address {
 /// port does not matter, as it may be forwarded.
 [[nodiscard]] bool may_answer_to(std::string_view host, std::string_view field);
 
-/// Shows a page, which follows a history by server-sent events, to the browsers that ask for it.
-/// All this happens in one thread of its own, which nothing that a client does or leaves undone can
-/// stop: each has a limited time for its request and for taking what it is sent, and their number
-/// is limited. Nothing but GET is answered.
+/// A name that nobody can guess, of letters and digits.
+[[nodiscard]] std::string make_token();
+
+/// Texts that a page saves are at most this long, in bytes.
+inline constexpr std::size_t most_text = std::size_t{20} << 20;
+
+/// What the page is told of a text that it saves.
+struct Answer {
+  const char* status;  ///< of HTTP: "200 OK"
+  std::string json;
+};
+
+/// Shows a page to the browsers that ask for it; it may follow a history by server-sent events, and
+/// may save texts. All this happens in one thread of its own, which nothing that a client does or
+/// leaves undone can stop: each has a limited time for its request and for taking what it is sent,
+/// and their number is limited. Nothing but GET is answered, and PUT of the page itself.
 class Server {
  public:
   struct Site {
-    std::string page;   ///< HTML
-    std::string token;  ///< of "/events?run=TOKEN"; another one is that of another run
+    /// Where the page is: it begins and ends with a slash. A name that nobody can guess keeps out
+    /// the other users of the machine, too.
+    std::string path = "/";
+    /// Makes the page, HTML. This and `put` are called by the thread of the server.
+    std::function<std::string()> page;
+    /// That the page follows at "events?run=TOKEN"; null: it follows none. It must outlive the
+    /// server.
+    const History* history = nullptr;
+    std::string token;  ///< another one is that of another run
+    /// Takes a text that the page puts at "NAME?QUERY", relative to itself; null: it puts none.
+    std::function<Answer(std::string_view name, std::string_view query, std::string_view text)> put;
   };
 
   /// Listens at an address; port 0 is a free one. Returns the server, or null and why there is
-  /// none. `history` must outlive it.
-  [[nodiscard]] static std::pair<std::unique_ptr<Server>, std::string> start(
-      const Address& address, Site site, const History& history);
+  /// none.
+  [[nodiscard]] static std::pair<std::unique_ptr<Server>, std::string> start(const Address& address,
+                                                                             Site site);
 
   /// Stops it at once.
   ~Server();

@@ -13,6 +13,7 @@
 #include "core/report/words.h"
 #include "core/support/wording.h"
 #include "page/html_report.h"
+#include "page/simulator.h"
 #include "runtime/base/text.h"
 #include "verify/report/verify_report.h"
 
@@ -194,6 +195,10 @@ std::span<const VerifyFormat> verify_formats() {
 std::string verify_to_html(const VerifyResult& result) {
   const CompiledCatalog& catalog = *result.catalog;
   HtmlReport page;
+  if (const auto simulator = installed_simulator()) {
+    page.continue_in(*simulator,
+                     [&](const CompiledCatalog& /*catalog*/) { return result.text.get(); });
+  }
   std::vector<PropertyOfPage> properties;
   for (const VerifyPart& part : result.parts) {
     for (const ReportedAnswer& reported : part.answers) {

@@ -129,6 +129,7 @@ struct ReportedComparison {
 /// All that a call of `cbc verify` found out.
 struct VerifyResult {
   std::shared_ptr<const CompiledCatalog> catalog;
+  std::shared_ptr<const std::string> text;  ///< of the catalog; null if it was compiled
   std::vector<VerifyPart> parts;
   /// Of the tasks that start on request, in catalog order; only if a part is about groups.
   std::vector<TaskCutSets> single_faults;

@@ -1,6 +1,6 @@
 # The program for browsers: play.js and play.wasm, in the folder of the build.
 
-file(GLOB play_sources CONFIGURE_DEPENDS src/play/*.cpp)
+file(GLOB play_sources CONFIGURE_DEPENDS src/wasm/*.cpp)
 # The commands that a page has a use for: what is not named is not linked.
 set(play_folder "${CMAKE_CURRENT_BINARY_DIR}/play_program")
 set(rows "")

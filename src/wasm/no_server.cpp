@@ -16,8 +16,7 @@ Server::Server(std::unique_ptr<Loop> loop) : loop_(std::move(loop)) {}
 Server::~Server() = default;
 
 std::pair<std::unique_ptr<Server>, std::string> Server::start(const Address& /*address*/,
-                                                              Site /*site*/,
-                                                              const History& /*history*/) {
+                                                              Site /*site*/) {
   return {nullptr, "a browser cannot serve pages"};
 }
 

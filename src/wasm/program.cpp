@@ -1,7 +1,7 @@
 #include <emscripten/emscripten.h>
 #include <string>
 
-#include "play/session.h"
+#include "wasm/session.h"
 
 // What JavaScript calls besides main(): the session of a page.
 

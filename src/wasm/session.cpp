@@ -1,6 +1,6 @@
 // Each entry keeps the state after it, so to go back is to resume there, and to ask about an event
 // is to do its entry once more. A coordinator does the same whenever it resumes the same state.
-#include "play/session.h"
+#include "wasm/session.h"
 
 #include <algorithm>
 #include <cmath>
