@@ -72,8 +72,17 @@ class Cbc {
 
   /** A session of the simulator: a function that takes a request and returns the answer; see session.h. */
   async openSession() {
-    const { ccall } = await this.instantiate();
-    return (request) => JSON.parse(ccall('cbc_session', 'string', ['string'], [JSON.stringify(request)]));
+    const program = await this.instantiate();
+    return (request) => {
+      // A text of any length; what ccall passes has to fit on the stack.
+      const text = JSON.stringify(request);
+      const size = program.lengthBytesUTF8(text) + 1;
+      const place = program._malloc(size);
+      program.stringToUTF8(text, place, size);
+      const answer = program.UTF8ToString(program._cbc_session(place));
+      program._free(place);
+      return JSON.parse(answer);
+    };
   }
 }
 

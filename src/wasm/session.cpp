@@ -267,9 +267,15 @@ void Session::tell_present(JsonWriter& answer) const {
                                            runner_->coordinator().state()));
 }
 
-void Session::tell_news(std::uint64_t first, JsonWriter& answer) {
+void Session::tell_place(JsonWriter& answer) const {
   answer.write("index", present().events);
   answer.write_seconds("time", present().now);
+  answer.write("entry", static_cast<std::uint64_t>(position_));
+  answer.write("entries", static_cast<std::uint64_t>(entries_.size()));
+}
+
+void Session::tell_news(std::uint64_t first, JsonWriter& answer) {
+  tell_place(answer);
   answer.write("first", first + 1);
   const auto write_all = [&](std::string_view name, std::vector<std::string>& items) {
     answer.open(name, '[');
@@ -316,6 +322,12 @@ void Session::advance(const JsonValue& request, JsonWriter& answer) {
 }
 
 void Session::go_to(const JsonValue& request, JsonWriter& answer) {
+  if (const auto done = request.find("entry")) {
+    position_ = done->integer<std::size_t>(0, entries_.size());
+    cut_.reset();
+    resume();
+    return tell_place(answer);
+  }
   const auto most = static_cast<std::size_t>(entries_.empty() ? 0 : entries_.back()->after.events);
   const auto index = request["index"].integer<std::size_t>(0, most);
   const auto entry = std::lower_bound(
@@ -337,8 +349,7 @@ void Session::go_to(const JsonValue& request, JsonWriter& answer) {
     cut_ = part;
   }
   resume();
-  answer.write("index", present().events);
-  answer.write_seconds("time", present().now);
+  tell_place(answer);
 }
 
 std::string Session::what_if_report(const std::vector<Step>& steps, bool has_moves) const {

@@ -35,13 +35,13 @@ namespace cbc::play {
 ///   load     mission (its text), name: begins anew with all its entries: `lint`, and unless there
 ///            are errors `begin` and what an apply answers; if the clock runs away in it, what came
 ///            before stays
-///   apply    event (an entry of a script): `index` and `time` after it, `first` (the index of the
-///            first new event; later ones of before are gone), `events` and `failures` as the page
-///            gets them, `warnings`
+///   apply    event (an entry of a script): `index` and `time` after it, `entry` (how many entries
+///            are done) of `entries`, `first` (the index of the first new event; later ones of
+///            before are gone), `events` and `failures` as the page gets them, `warnings`
 ///   advance  to (seconds; absent: when something falls due next): the same
-///   goto     index (of an event; 0: before all): `index` and `time` that were reached; what
-///   follows
-///            one event at once, and all that the clock does at its instant, belongs to it
+///   goto     index (of an event; 0: before all): `index`, `time`, `entry` and `entries` where that
+///            is; what follows one event at once, and all that the clock does at its instant,
+///            belongs to it. Or entry (how many are done)
 ///   what_if  events (entries; absent: all that may be asked for): `report`, as cbc.what-if/1;
 ///            `errors` of entries that are left out
 ///   state    `report`, as cbc.what-if/1 without moves; `timeouts`, by task; `next_due`, or null
@@ -85,6 +85,7 @@ class Session {
   void take(Step step, bool is_clock);
   void run(Entry& entry);
   void tell_present(JsonWriter& answer) const;
+  void tell_place(JsonWriter& answer) const;
   void tell_news(std::uint64_t first, JsonWriter& answer);
   [[nodiscard]] std::string what_if_report(const std::vector<Step>& steps, bool has_moves) const;
   [[nodiscard]] std::size_t decider_of(TaskId task, std::size_t index) const;

@@ -29,6 +29,7 @@ target_link_options(
   "SHELL:-s ENVIRONMENT=web,worker,node"
   "SHELL:-s NODEJS_CATCH_EXIT=0" # each instance would add handlers
   "SHELL:-s NODEJS_CATCH_REJECTION=0"
-  "SHELL:-s EXPORTED_RUNTIME_METHODS=FS,callMain,ccall,ENV")
+  "SHELL:-s EXPORTED_FUNCTIONS=_main,_cbc_session,_malloc,_free"
+  "SHELL:-s EXPORTED_RUNTIME_METHODS=FS,callMain,lengthBytesUTF8,stringToUTF8,UTF8ToString,ENV")
 # Debian's Emscripten needs a package of Debian, which a Node.js of others does not find.
 set_target_properties(cbc_play PROPERTIES RULE_LAUNCH_LINK "${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs")
