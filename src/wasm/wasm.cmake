@@ -12,12 +12,12 @@ string(REGEX REPLACE "#define CBC_COMMANDS[^\n]*\n(  row[^\n]*\n)+" "#define CBC
        "${commands_header}")
 file(CONFIGURE OUTPUT "${play_folder}/commands.h" CONTENT "${commands_header}" @ONLY)
 configure_file(src/main.cpp "${play_folder}/main.cpp" COPYONLY)
-add_executable(cbc_play "${play_folder}/main.cpp" ${play_sources})
-target_include_directories(cbc_play PRIVATE src)
-set_target_properties(cbc_play PROPERTIES OUTPUT_NAME play)
-target_link_libraries(cbc_play PRIVATE cbc_program nlohmann_json::nlohmann_json ${yaml_cpp})
+add_executable(cbc_wasm "${play_folder}/main.cpp" ${play_sources})
+target_include_directories(cbc_wasm PRIVATE src)
+set_target_properties(cbc_wasm PROPERTIES OUTPUT_NAME play)
+target_link_libraries(cbc_wasm PRIVATE cbc_program nlohmann_json::nlohmann_json ${yaml_cpp})
 target_link_options(
-  cbc_play
+  cbc_wasm
   PRIVATE
   "SHELL:-s MODULARIZE=1"
   "SHELL:-s EXPORT_NAME=createCbc"
@@ -32,4 +32,4 @@ target_link_options(
   "SHELL:-s EXPORTED_FUNCTIONS=_main,_cbc_session,_malloc,_free"
   "SHELL:-s EXPORTED_RUNTIME_METHODS=FS,callMain,lengthBytesUTF8,stringToUTF8,UTF8ToString,ENV")
 # Debian's Emscripten needs a package of Debian, which a Node.js of others does not find.
-set_target_properties(cbc_play PROPERTIES RULE_LAUNCH_LINK "${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs")
+set_target_properties(cbc_wasm PROPERTIES RULE_LAUNCH_LINK "${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs")
