@@ -99,7 +99,7 @@ class Page {
     if (event.ctrlKey || event.altKey || event.metaKey || byId('help').open || this.run === undefined) return;
     if (event.key === 'Escape') this.hover(null, null);
     const { target } = event;
-    if (target.closest?.('input:not([type=checkbox]), select, [contenteditable]')) return; // they have keys of their own
+    if (target.closest?.('input:not([type=checkbox]), select, .cm-editor')) return; // they have keys of their own
     const isInTable = this.table.contains(target);
     const actions = {
       ArrowLeft: () => this.choose(this.number - 1),

@@ -19,7 +19,7 @@ const source = (...names) => readFileSync(path.join(root, 'src', ...names), 'utf
 const listOf = (name) => new RegExp(`set\\(${name} ?([^)]*)\\)`).exec(source('page', 'html', 'embed.cmake'))[1]
   .replaceAll(/#.*$/gm, '').split(/\s+/).filter((word) => word !== '');
 const pageScripts = listOf('scripts').filter((name) => !['address.js', 'live.js', 'start.js'].includes(name));
-const ownScripts = ['engine.js', 'session.js', 'robot.js', 'prove.js', 'share.js', 'files.js', 'play.js'];
+const ownScripts = ['engine.js', 'session.js', 'robot.js', 'clock.js', 'prove.js', 'share.js', 'files.js', 'play.js'];
 const between = (text, begin, end) => text.slice(text.indexOf(begin), text.indexOf(end) + end.length);
 
 const bundled = await esbuild.build({

@@ -4,11 +4,9 @@ import { basicSetup } from 'codemirror';
 import { yaml } from '@codemirror/lang-yaml';
 import { HighlightStyle, syntaxHighlighting } from '@codemirror/language';
 import { lintGutter, setDiagnostics } from '@codemirror/lint';
-import { EditorState, Annotation } from '@codemirror/state';
+import { EditorState } from '@codemirror/state';
 import { EditorView, keymap } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
-
-const isOurs = Annotation.define(); // a change that nobody typed
 
 const colors = HighlightStyle.define([
   { tag: [tags.propertyName, tags.definition(tags.propertyName)], color: 'var(--requested-text)' },
@@ -31,21 +29,25 @@ export class TextEditor {
   /** `onChange(text)`: after somebody has typed. */
   constructor(parent, label, onChange) {
     this.onChange = onChange;
-    this.view = new EditorView({ parent, state: this.newState(label) });
+    this.label = label;
+    this.view = new EditorView({ parent, state: this.newState(label, '') });
     this.view.scrollDOM.tabIndex = 0; // so that keys can scroll long lines
   }
 
-  newState(label) {
-    return EditorState.create({ extensions: [
+  newState(label, text) {
+    return EditorState.create({ doc: text, extensions: [
       basicSetup, yaml(), syntaxHighlighting(colors), theme, lintGutter(),
       EditorView.contentAttributes.of({ 'aria-label': label }),
-      // Tab goes on to the next control of the page.
+      // Tab does not write, so it goes on to the next control; Escape leaves, too.
       keymap.of([{ key: 'Escape', run: (view) => { view.contentDOM.blur(); return true; } }]),
       EditorView.updateListener.of((update) => {
-        const isTyped = update.docChanged && !update.transactions.some((one) => one.annotation(isOurs));
-        if (isTyped) this.onChange(this.text);
+        if (update.docChanged) this.onChange(this.text);
       }),
     ] });
+  }
+
+  get hasFocus() {
+    return this.view.hasFocus;
   }
 
   get text() {
@@ -55,8 +57,7 @@ export class TextEditor {
   /** Another text, which nobody has typed. */
   set text(text) {
     if (text === this.text) return;
-    this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text },
-                         annotations: isOurs.of(true) });
+    this.view.setState(this.newState(this.label, text)); // there is nothing to undo
   }
 
   /** Findings as in cbc.lint/1. */

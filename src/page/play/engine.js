@@ -31,7 +31,12 @@ class Engine {
 
   begin() {
     const { worker, program } = programParts();
-    this.worker = new Worker(worker);
+    try {
+      this.worker = new Worker(worker);
+    } catch {
+      this.worker = null; // a browser lets no page from a disk use a file beside it
+      return;
+    }
     this.worker.addEventListener('message', ({ data }) => this.take(data));
     this.worker.addEventListener('error', (event) => {
       event.preventDefault();
@@ -48,6 +53,9 @@ class Engine {
   }
 
   send(message) {
+    if (this.worker === null) {
+      return Promise.reject(new Failed('this page needs a web server: open cbc-play.html beside it, which needs none'));
+    }
     return new Promise((resolve, reject) => {
       const id = ++this.count;
       this.waiting.set(id, { resolve, reject });
@@ -72,15 +80,16 @@ class Engine {
   }
 
   /** Ends whatever is being done; a new program takes its place, which knows of nothing. */
-  end(reason = new Ended('it was ended')) {
-    this.close();
-    const waiting = [...this.waiting.values()];
-    this.waiting.clear();
+  end(reason = new Ended('It was stopped.')) {
+    this.close(reason);
     this.begin();
-    for (const { reject } of waiting) reject(reason);
   }
 
-  close() {
-    this.worker.terminate();
+  /** The same, for good. */
+  close(reason = new Ended('It was stopped.')) {
+    this.worker?.terminate();
+    const waiting = [...this.waiting.values()];
+    this.waiting.clear();
+    for (const { reject } of waiting) reject(reason);
   }
 }

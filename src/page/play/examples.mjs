@@ -5,11 +5,11 @@ import path from 'node:path';
 
 /** What a first visit may try. */
 const tries = [
-  { text: 'Something breaks: the robot drives, then it cannot match landmarks any more. Who takes over?',
+  { text: 'Something breaks: the robot drives, then it can no longer match landmarks. Who takes over?',
     entries: [{ start: 'DRIVE' }, { fault: 'MATCH_LANDMARKS' }, { finish: 'MATCH_LANDMARKS', cause: 'process_failure' }] },
-  { text: 'Two requests exclude one another: the one with the higher priority goes first, the other one is rejected.',
+  { text: 'Two requests conflict: the one with the higher priority wins, and the other is rejected.',
     entries: [{ start: 'CHARGE', priority: 2 }, { start: 'DRIVE' }] },
-  { text: 'It becomes dark while the robot drives.',
+  { text: 'It gets dark while the robot drives.',
     entries: [{ start: 'DRIVE', priority: 3 }, { situation: { LIGHT: 'dark' } }] },
 ];
 

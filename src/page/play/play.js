@@ -2,7 +2,6 @@
 
 const pauseOfTyping = 300; // milliseconds
 const slowAnswer = 1000; // milliseconds, after which the work can be ended
-const tickOfClock = 100; // milliseconds of a running clock
 
 class Play {
   constructor() {
@@ -12,11 +11,12 @@ class Play {
       onNote: (text, isBad) => this.note(text, isBad),
       onFindings: (kind, findings) => this.showFindings(kind, findings),
       onCatalog: (catalog, requestable) => this.robot.build(catalog, requestable),
+      onLeave: () => this.clock.halt(),
     });
     this.robot = new Robot({ onAsk: (entry) => this.ask(entry), onPreview: (entry) => this.preview(entry),
                              onWhy: (task) => this.explain(task).catch((error) => this.note(error.message, true)) });
     this.catalog = new TextEditor(byId('text-catalog'), 'Catalog', debounced((text) => this.openCatalog(text)));
-    this.mission = new TextEditor(byId('text-mission'), 'Mission', debounced((text) => this.simulation.load(text)));
+    this.mission = new TextEditor(byId('text-mission'), 'Mission', debounced((text) => this.loadMission(text)));
     this.properties = new TextEditor(byId('text-properties'), 'Properties', () => {});
     this.prover = new Prover(
       { begin: byId('prove'), end: byId('prove-end'), limit: byId('prove-limit'), progress: byId('prove-progress'), list: byId('proofs') },
@@ -24,14 +24,13 @@ class Play {
     const onNote = (text, isBad) => this.note(text, isBad);
     this.savers = {
       catalog: new FileSaver('catalog', this.catalog, { onNote, load: (text) => this.openCatalog(text) }),
-      mission: new FileSaver('mission', this.mission, { onNote, load: (text) => this.simulation.load(text) }),
+      mission: new FileSaver('mission', this.mission, { onNote, load: (text) => this.loadMission(text) }),
       properties: new FileSaver('properties', this.properties, { onNote, load: () => {} }),
     };
-    this.clock = null;
+    this.clock = new Clock(this.simulation, this.engine, (time) => this.showTime(time));
     this.setUpBar();
     this.setUpTabs();
-    this.setUpClock();
-    this.setUpMission();
+    this.setUpFiles();
     this.watchWork();
     document.addEventListener('keydown', (event) => this.onKey(event));
     addEventListener('hashchange', () => this.start());
@@ -74,7 +73,9 @@ class Play {
   /** `files`: where its texts come from, if that is known. */
   async openSession({ catalog, mission = '', properties = '', name = 'robot.yaml', index, files = {} }) {
     byId('welcome').hidden = true;
-    this.stopClock();
+    this.clock.halt();
+    this.prover.stop();
+    this.hasDraft = false;
     this.note('', false);
     this.simulation.catalogName = name;
     this.catalog.text = catalog;
@@ -82,38 +83,37 @@ class Play {
     this.mission.text = mission;
     byId('proofs').replaceChildren();
     for (const [role, text] of Object.entries({ catalog, mission, properties })) this.savers[role].open(files[role], text);
-    await this.simulation.open(catalog, mission === '' ? null : mission);
-    if (index !== undefined && this.simulation.isOpen) await this.simulation.goTo(Math.min(index, this.simulation.page.run.size));
+    await this.simulation.open(catalog, mission);
+    if (index !== undefined && this.simulation.isOpen) await this.simulation.goTo(index);
   }
 
-  /** The robot has changed; what was done so far is done with the new one. */
   openCatalog(text) {
-    const { simulation } = this;
-    return simulation.do(async () => {
-      const mission = simulation.isOpen && simulation.page.run.size > 0 ? await simulation.mission() : null;
-      // What came of it is what is asked now.
-      const events = mission === null ? null : withoutExpectations(mission);
-      simulation.open(text, events, events === mission);
-    });
+    this.prover.age();
+    return this.simulation.change(text);
   }
 
   openMission(text) {
     this.mission.text = text;
     this.chooseTab('mission');
-    return this.simulation.load(text);
+    return this.loadMission(text);
   }
 
-  /** What was done, as a mission; the text is only written while it is in view. */
+  async loadMission(text) {
+    this.clock.halt();
+    this.hasDraft = !await this.simulation.load(text);
+  }
+
+  /** What was done, as a mission; the text is only written while it is in view, and nobody writes there. */
   recordSoon() {
     clearTimeout(this.recording);
     this.recording = setTimeout(() => this.record(), 150);
   }
 
   async record() {
-    if (!byId('pane-mission').hidden && this.simulation.isOpen) {
-      this.mission.text = await this.simulation.mission();
-      this.showFindings('mission', []);
-    }
+    const isWanted = () => !byId('pane-mission').hidden && !this.mission.hasFocus && !this.hasDraft;
+    if (!isWanted() || this.simulation.lost !== null) return;
+    const { mission } = await this.simulation.whole();
+    if (isWanted()) this.mission.text = mission;
   }
 
   showFindings(kind, findings) {
@@ -134,94 +134,74 @@ class Play {
   // The robot -------------------------------------------------------------------------------------
 
   ask(entry) {
-    byId('preview').textContent = '';
-    return this.simulation.apply(entry);
+    return this.simulation.apply(entry, this.clock.time);
   }
 
-  async preview(entry) {
-    const line = byId('preview');
+  /** Says what an entry would do, while the pointer or the focus is on its control; null: on none. */
+  preview(entry) {
     this.previewed = entry;
-    if (entry === null || !this.simulation.isOpen || this.engine.isBusy) {
-      line.textContent = '';
-      return;
+    if (entry === null) byId('preview').textContent = '';
+    else this.previewNow();
+  }
+
+  async previewNow() {
+    if (this.isPreviewing) return; // then it asks once more
+    this.isPreviewing = true;
+    for (let shown = null; this.previewed !== null && this.previewed !== shown;) {
+      shown = this.previewed;
+      const found = await this.simulation.whatIf(shown);
+      if (this.previewed !== shown || found === undefined) continue;
+      const { move, error } = found;
+      byId('preview').textContent = error ?? describeMove(move);
+      byId('preview').className = error !== undefined || move.outcome === 'rejected' ? 'bad' : '';
     }
-    try {
-      const { move, error } = await this.simulation.whatIf(entry);
-      if (this.previewed !== entry) return; // the pointer has gone on
-      line.textContent = error ?? describeMove(move);
-      line.className = error !== undefined || move.outcome === 'rejected' ? 'bad' : '';
-    } catch {
-      line.textContent = '';
-    }
+    this.isPreviewing = false;
+  }
+
+  showTime(time) {
+    const { page, place, due } = this.simulation;
+    byId('now').textContent = `${time === place.time ? formatTime(time) : time.toFixed(1)} s`;
+    byId('to-next').textContent = due.next === null ? 'nothing due' : `next due (in ${inSeconds(Math.max(0, due.next - time))})`;
+    this.robot.show(page.run, place.index, { ...due, now: time });
   }
 
   showState() {
     const { simulation } = this;
-    const { run } = simulation.page;
-    this.robot.show(run, simulation.index, simulation.due);
-    byId('now').textContent = `${formatTime(simulation.due.now)} s`;
+    const { page, place } = simulation;
+    this.showTime(this.clock.time === null ? place.time : Math.max(this.clock.time, place.time));
     byId('to-next').disabled = simulation.due.next === null;
-    byId('to-next').textContent = simulation.due.next === null ? 'nothing due' : `next due (in ${inSeconds(simulation.due.next - simulation.due.now)})`;
     byId('undo').disabled = !simulation.canUndo;
     byId('redo').disabled = !simulation.canRedo;
-    byId('restart').disabled = run.size === 0;
-    const later = run.size - simulation.index;
-    document.body.classList.toggle('is-past', later > 0);
-    byId('later').textContent = later > 0 ? `In the past: what you do now takes the place of ${quantity(later, 'later event')}.` : '';
+    byId('restart').disabled = place.entries === 0;
+    const later = page.run.size - place.index;
+    const hints = [simulation.isStale ? 'The catalog has errors: this is the last robot that had none.' : '',
+                   later > 0 ? `In the past: what you do now replaces ${quantity(later, 'later event')}.` : ''];
+    byId('later').textContent = hints.filter((hint) => hint !== '').join(' ');
+    document.title = `${simulation.catalogName} \u2013 cbc play`;
+    if (this.previewed) this.previewAgain();
+  }
+
+  /** The state has changed under the pointer. */
+  previewAgain() {
+    this.previewed = { ...this.previewed };
+    this.previewNow();
   }
 
   /** Why a task runs as it does, or does not. */
   async explain(task) {
     const event = await this.simulation.why(task);
     const { catalog } = this.simulation;
-    const parts = [html('h2', '', `Why is ${task} as it is?`)];
+    const parts = [html('h2', '', `Why ${task} ${get(this.simulation.page.run.running(this.simulation.place.index), task) === undefined ? 'does not run' : 'runs'}`)];
     if (event === null) {
       parts.push(html('p', '', 'No event has asked for anything that bears on it.'));
     } else {
-      parts.push(html('p', 'hint', `Decided by event ${event.index}, ${describeEvent(event, catalog)}: ${event.outcome ?? ''}`),
+      parts.push(html('p', 'hint', `Decided by event ${event.index}, ${describeEvent(event, catalog)}${event.outcome === undefined ? '' : `: ${event.outcome}`}.`),
                  ...(event.why ?? []).flatMap((why) => whyElements(why, catalog)),
                  ...(event.conflict.length === 0 ? [] : [html('h3', '', 'Reasons: without any one of them it would be possible'),
                    html('ul', '', ...event.conflict.map(({ message }) => html('li', '', message)))]));
     }
     byId('why-body').replaceChildren(...parts);
     byId('why').showModal();
-  }
-
-  // The clock -------------------------------------------------------------------------------------
-
-  setUpClock() {
-    const on = (id, action) => byId(id).addEventListener('click', action);
-    on('step', () => this.simulation.advance(this.simulation.due.now + 1));
-    on('to-next', () => this.simulation.advance());
-    on('run', () => (this.clock === null ? this.startClock() : this.stopClock()));
-  }
-
-  /** The clock of the robot follows that of the wall; the session hears of it when something falls due. */
-  startClock() {
-    if (!this.simulation.isOpen) return;
-    byId('run').setAttribute('aria-pressed', 'true');
-    byId('run').textContent = 'pause';
-    let last = performance.now();
-    this.clock = setInterval(() => {
-      const { due } = this.simulation;
-      const seconds = (performance.now() - last) / 1000;
-      last = performance.now();
-      if (this.engine.isBusy) return;
-      this.clockTime = Math.max(this.clockTime ?? 0, due.now) + seconds;
-      byId('now').textContent = `${this.clockTime.toFixed(1)} s`;
-      this.robot.show(this.simulation.page.run, this.simulation.index, { ...due, now: this.clockTime });
-      if (due.next !== null && this.clockTime >= due.next) this.simulation.advance(due.next);
-    }, tickOfClock);
-  }
-
-  stopClock() {
-    clearInterval(this.clock);
-    this.clock = null;
-    byId('run').setAttribute('aria-pressed', 'false');
-    byId('run').textContent = 'run';
-    const { clockTime, simulation } = this;
-    this.clockTime = undefined;
-    if (clockTime !== undefined && simulation.isOpen && clockTime > simulation.due.now) simulation.advance(clockTime);
   }
 
   // Controls --------------------------------------------------------------------------------------
@@ -238,7 +218,7 @@ class Play {
     });
     on('undo', () => this.undo());
     on('redo', () => this.redo());
-    on('restart', () => this.simulation.open(this.catalog.text).then(() => this.recordSoon()));
+    on('restart', () => this.restart());
     on('end-work', () => this.endWork());
     on('copy-link', async () => this.copy(await this.link(), 'The link is copied'));
     on('copy-frame', async () => {
@@ -277,11 +257,20 @@ class Play {
   }
 
   undo() {
-    return this.simulation.canUndo ? this.simulation.undo() : undefined;
+    this.clock.halt();
+    return this.simulation.undo();
   }
 
   redo() {
-    return this.simulation.canRedo ? this.simulation.goTo(this.simulation.index + 1) : undefined;
+    this.clock.halt();
+    return this.simulation.redo();
+  }
+
+  /** The same robot, before anything was done. */
+  restart() {
+    this.clock.halt();
+    this.hasDraft = false;
+    return this.simulation.open(this.catalog.text);
   }
 
   setUpTabs() {
@@ -306,25 +295,32 @@ class Play {
       tab.tabIndex = name === wanted ? 0 : -1;
       byId(`pane-${name}`).hidden = name !== wanted;
     }
-    if (wanted === 'mission' && this.simulation.isOpen && this.simulation.page.run.size > 0) this.recordSoon();
+    if (wanted === 'mission') this.recordSoon();
   }
 
-  setUpMission() {
-    const file = byId('mission-file');
-    byId('open-mission').addEventListener('click', () => file.click());
-    file.addEventListener('change', async () => {
-      if (file.files.length > 0) await this.openMission(await file.files[0].text());
-      file.value = '';
-    });
-    byId('copy-mission').addEventListener('click', async () => this.copy(await this.missionText(), 'The mission is copied'));
-    byId('save-mission').addEventListener('click', async () =>
-      saveFile(await this.missionText(), `${this.simulation.catalogName.replace(/\.\w+$/, '')}.mission.yaml`));
+  setUpFiles() {
+    const setUp = (what, open, textOf, nameOf) => {
+      const file = byId(`${what}-file`);
+      byId(`open-${what}`).addEventListener('click', () => file.click());
+      file.addEventListener('change', async () => {
+        const [chosen] = file.files;
+        if (chosen !== undefined) await open(await chosen.text(), chosen.name);
+        file.value = '';
+      });
+      byId(`copy-${what}`).addEventListener('click', async () => this.copy(await textOf(), `The ${what} is copied`));
+      byId(`save-${what}`).addEventListener('click', async () => saveFile(await textOf(), nameOf()));
+    };
+    setUp('catalog', (catalog, name) => this.openSession({ catalog, name }),
+      () => this.catalog.text, () => this.simulation.catalogName);
+    setUp('mission', (text) => this.openMission(text),
+      () => this.missionText(), () => `${this.simulation.catalogName.replace(/\.\w+$/, '')}.mission.yaml`);
   }
 
   /** With the name of its catalog, as a file has it. */
   async missionText() {
-    const mission = await this.simulation.mission();
-    return /^catalog:/m.test(mission) ? mission : `catalog: ${this.simulation.catalogName}\n${mission}`;
+    const { mission } = await this.simulation.whole();
+    const hasName = /^["']?catalog["']?:/m.test(mission) || /^\s*[[{]/.test(mission);
+    return hasName ? mission : `catalog: ${JSON.stringify(this.simulation.catalogName)}\n${mission || 'events: []\n'}`;
   }
 
   /** Whatever takes long can be ended. */
@@ -337,12 +333,13 @@ class Play {
     }, 200);
   }
 
+  /** The last robot takes the place of what took too long, with all that was done. */
   async endWork() {
+    this.clock.halt();
     this.engine.end();
     await this.simulation.work;
-    const { page } = this.simulation;
-    if (page !== null) await this.simulation.open(this.catalog.text);
-    this.note('It was ended. The robot begins anew.', true);
+    await this.simulation.recover();
+    this.note('Stopped.', true);
   }
 
   note(text, isBad) {
@@ -353,7 +350,7 @@ class Play {
 
   onKey(event) {
     const { target, key } = event;
-    if (target.closest?.('input, select, textarea, [contenteditable]')) return;
+    if (target.closest?.('input, select, textarea, .cm-editor') || document.querySelector('dialog[open]')) return;
     if ((event.ctrlKey || event.metaKey) && !event.altKey && ['z', 'y', 'Z'].includes(key)) {
       event.preventDefault();
       (key === 'z' ? this.undo() : this.redo());
@@ -369,6 +366,7 @@ class Play {
     const list = html('ol', '', ...tries.map(({ text, entries }) => {
       const item = html('li', '', `${text} `);
       item.append(buttonElement('show me', async () => {
+        await this.restart();
         for (const entry of entries) await this.ask(entry);
       }));
       return item;
@@ -378,9 +376,6 @@ class Play {
     byId('welcome').hidden = false;
   }
 }
-
-/** A mission that only says what happens. Entries that expect are lines of their own, as they are written. */
-const withoutExpectations = (mission) => mission.replace(/^- \{at: [\d.]+, expect: .*\}\n/gm, '');
 
 function debounced(action) {
   let timer;

@@ -8,21 +8,34 @@ class Prover {
     this.onScript = onScript;
     this.engine = null;
     this.begin.addEventListener('click', () => this.prove());
-    this.end.addEventListener('click', () => this.engine?.end());
+    this.end.addEventListener('click', () => this.stop());
+  }
+
+  stop() {
+    this.engine?.close();
+  }
+
+  /** The catalog has changed. */
+  age() {
+    const isNew = this.list.childElementCount > 0 && this.engine === null && !this.list.classList.contains('is-old');
+    if (isNew) this.list.prepend(html('p', 'hint', 'These results are about an earlier catalog.'));
+    this.list.classList.toggle('is-old', this.list.childElementCount > 0);
   }
 
   async prove() {
     const { catalog, properties } = this.texts();
-    const limit = Math.max(1, Number(this.limit.value) || 1);
+    const limit = Math.min(3600, Math.max(1, Math.round(Number(this.limit.value)) || 1));
+    this.limit.value = limit;
     this.show(limit);
+    this.list.classList.remove('is-old');
     try {
       this.tell(catalog, properties, await this.run(catalog, properties, limit));
     } catch (error) {
-      this.list.replaceChildren(html('p', 'alarm', error instanceof Ended ? 'The proof was ended.' : error.message));
+      this.list.replaceChildren(html('p', 'alarm', error instanceof Ended ? 'The proof was stopped.' : error.message));
     }
+    clearInterval(this.timer);
     this.engine.close();
     this.engine = null;
-    clearInterval(this.timer);
     for (const element of [this.end, this.progress]) element.hidden = true;
     this.begin.disabled = false;
   }
@@ -35,7 +48,7 @@ class Prover {
     const tick = () => {
       const seconds = (performance.now() - started) / 1000;
       this.progress.value = Math.min(1, seconds / limit);
-      this.list.replaceChildren(html('p', 'hint', `visiting states: ${seconds.toFixed(0)} s of at most ${limit} s`));
+      this.list.replaceChildren(html('p', 'hint', `exploring states: ${seconds.toFixed(0)} s of at most ${limit} s`));
     };
     tick();
     this.timer = setInterval(tick, 250);
@@ -45,7 +58,8 @@ class Prover {
     const limits = ['--time-limit', `${limit}`, '--max-memory', '1G'];
     if (properties.trim() === '') return this.engine.run(['verify', 'robot.yaml', ...limits], { 'robot.yaml': catalog });
     // A property file may name its catalog, as whatever it is called where it comes from.
-    const named = /^catalog:[ \t]*(["']?)([^"'#\n]+?)\1[ \t]*(#.*)?$/m.exec(properties)?.[2].replace(/^.*\//, '');
+    const found = /^catalog:[ \t]*(["']?)([^"'#\n]+?)\1[ \t]*(#.*)?$/m.exec(properties)?.[2].replace(/^.*\//, '');
+    const named = found === 'robot.properties.yaml' ? 'robot.yaml' : found;
     const own = properties.replace(/^catalog:.*$/m, `catalog: ${JSON.stringify(named ?? '')}`);
     return this.engine.run(
       ['verify', ...(named === undefined ? ['robot.yaml'] : []), 'robot.properties.yaml', '--format', 'json',

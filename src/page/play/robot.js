@@ -8,17 +8,24 @@ function describeMove(move) {
   const failed = move.failed.map((name) => `${typeof name === 'string' ? name : name.behavior} would fail`);
   const effects = [...started, ...changed, ...stopped, ...failed];
   if (move.outcome === 'rejected') {
-    const reasons = move.conflict.map(({ text, message }) => text ?? message).join('; ');
-    return `\u00d7 would be rejected${reasons === '' ? '' : `: ${reasons}`}`;
+    return `\u00d7 would be rejected: ${move.conflict.map(({ message }) => message).join('; ')}`;
   }
-  return effects.length === 0 ? 'would change no behavior' : `would do: ${effects.join(', ')}`;
+  if (effects.length > 0) return `would do: ${effects.join(', ')}`;
+  return move.verb === 'fault' ? 'would change nothing now: an active behavior goes on until it fails or is needed anew'
+    : 'would change no behavior';
 }
 
-const nameOfChange = (change) => (typeof change === 'string' ? change : change.to ?? change.behavior ?? JSON.stringify(change));
+const nameOfChange = (change) => (typeof change === 'string' ? change : change.to ?? change.behavior);
+
+const mostRows = 200; // of tasks or behaviors at once; the filter reaches the others
+
+/** A control that is off keeps the focus, so that keys go on from there. */
+const isOff = (button) => button.getAttribute('aria-disabled') === 'true';
+const setOff = (button, isOffNow) => button.setAttribute('aria-disabled', `${isOffNow}`);
 
 /** A control that asks for an event, and says before what it would do. */
 function eventButton(text, label, entry, { onAsk, onPreview }) {
-  const button = buttonElement(text, () => onAsk(entry()));
+  const button = buttonElement(text, () => (isOff(button) ? undefined : onAsk(entry())));
   button.setAttribute('aria-label', label);
   for (const name of ['pointerenter', 'focus']) button.addEventListener(name, () => onPreview(entry()));
   for (const name of ['pointerleave', 'blur']) button.addEventListener(name, () => onPreview(null));
@@ -38,14 +45,29 @@ class Robot {
   /** Another catalog. `requestable`: the tasks that a mission can start. */
   build(catalog, requestable) {
     this.catalog = catalog;
-    this.tasks = new Map([...catalog.taskPlace.keys()].map((name) => [name, this.taskRow(name, requestable.has(name))]));
-    this.behaviors = new Map([...catalog.behaviors.keys()].map((name) => [name, this.behaviorRow(name)]));
-    this.variables = new Map([...catalog.variables].map(([name, values]) => [name, this.variableRow(name, values)]));
-    for (const [id, rows] of [['tasks', this.tasks], ['behaviors', this.behaviors], ['variables', this.variables]]) {
-      byId(id).replaceChildren(...[...rows.values()].map((row) => row.item));
-    }
-    byId('situation').hidden = this.variables.size === 0;
+    this.requestable = requestable;
+    this.shown = null;
+    byId('situation').hidden = catalog.variables.size === 0;
     this.filter();
+  }
+
+  /** Makes the rows of the names that the filter leaves. */
+  filter() {
+    if (this.catalog === undefined) return;
+    const wanted = byId('filter').value.trim().toLowerCase();
+    const { taskPlace, behaviors, variables } = this.catalog;
+    const fill = (id, names, makeRow) => {
+      const found = [...names].filter((name) => name.toLowerCase().includes(wanted));
+      const rows = new Map(found.slice(0, mostRows).map((name) => [name, makeRow(name)]));
+      const rest = found.length - rows.size;
+      const more = rest === 0 ? [] : [html('li', 'hint', `and ${rest} more: filter by name`)];
+      byId(id).replaceChildren(...[...rows.values()].map((row) => row.item), ...more);
+      return rows;
+    };
+    this.tasks = fill('tasks', taskPlace.keys(), (name) => this.taskRow(name, this.requestable.has(name)));
+    this.behaviors = fill('behaviors', behaviors.keys(), (name) => this.behaviorRow(name));
+    this.variables = fill('variables', variables.keys(), (name) => this.variableRow(name, variables.get(name)));
+    if (this.shown !== null) this.show(...this.shown);
   }
 
   row(name) {
@@ -63,9 +85,10 @@ class Robot {
     const finish = eventButton('finish', `finish ${name}`, () => ({ finish: { task: name } }), this.asks);
     const fail = eventButton('fail', `fail ${name}`, () => ({ finish: { task: name }, cause: 'process_failure' }), this.asks);
     const why = buttonElement('why?', () => this.asks.onWhy(name));
-    why.setAttribute('aria-label', `why ${name} is as it is`);
+    why.setAttribute('aria-label', `why ${name} runs or not`);
+    setOff(start, !isRequestable);
     row.buttons.append(start, stop, finish, fail, why);
-    return { ...row, start, stop, finish, fail, isRequestable };
+    return { ...row, stop, finish, fail };
   }
 
   behaviorRow(name) {
@@ -91,6 +114,7 @@ class Robot {
 
   /** What the controls say after an event of a run. `due`: {timeouts, queue, now}, in seconds. */
   show(run, number, due) {
+    this.shown = [run, number, due];
     const { running, requests, queue } = run.stateAt(number);
     const values = run.values[number];
     for (const [name, row] of this.tasks) {
@@ -105,10 +129,9 @@ class Robot {
         timeout === undefined ? '' : `times out in ${inSeconds(timeout - due.now)}`,
       ];
       this.say(row, parts, behavior === undefined ? '' : request === undefined ? 'required' : 'requested');
-      row.start.disabled = !row.isRequestable;
-      row.stop.disabled = behavior === undefined && request === undefined && waits === undefined;
-      row.finish.disabled = behavior === undefined;
-      row.fail.disabled = behavior === undefined;
+      setOff(row.stop, behavior === undefined && request === undefined && waits === undefined);
+      setOff(row.finish, behavior === undefined);
+      setOff(row.fail, behavior === undefined);
     }
     const [faulty, unavailable, misfits] = ['faulty', 'unavailable', 'misfits'].map((kind) => new Set(run[kind][number]));
     const performed = new Map();
@@ -120,8 +143,8 @@ class Robot {
         misfits.has(name) ? 'does not fit the situation' : '',
       ];
       this.say(row, parts, performed.has(name) ? 'requested' : faulty.has(name) ? 'faulty' : '');
-      row.fault.disabled = faulty.has(name);
-      row.repair.disabled = !faulty.has(name);
+      setOff(row.fault, faulty.has(name));
+      setOff(row.repair, !faulty.has(name));
     }
     for (const [name, row] of this.variables) {
       for (const [value, button] of row.choices) {
@@ -142,25 +165,17 @@ class Robot {
     const place = buttons.indexOf(event.target);
     if (buttonStep !== undefined) {
       const others = buttonStep > 0 ? buttons.slice(place + 1) : buttons.slice(0, place).reverse();
-      others.find((button) => !button.disabled)?.focus();
+      others[0]?.focus();
       return;
     }
-    const rows = [...row.parentElement.children].filter((one) => !one.hidden);
-    const there = [...rows[rows.indexOf(row) + rowStep]?.querySelectorAll('button') ?? []];
-    const wanted = there[place]?.disabled === false ? there[place] : there.find((button) => !button.disabled);
-    wanted?.focus();
+    const next = rowStep > 0 ? row.nextElementSibling : row.previousElementSibling;
+    const there = next?.querySelectorAll('button') ?? [];
+    there[Math.min(place, there.length - 1)]?.focus();
   }
 
   say(row, parts, look) {
     const text = parts.filter((part) => part !== '').join(' \u00b7 ');
     if (row.state.textContent !== text) row.state.textContent = text;
     row.item.dataset.look = look;
-  }
-
-  filter() {
-    const wanted = byId('filter').value.trim().toLowerCase();
-    for (const rows of [this.tasks, this.behaviors, this.variables]) {
-      for (const [name, { item }] of rows ?? []) item.hidden = !name.toLowerCase().includes(wanted);
-    }
   }
 }

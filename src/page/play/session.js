@@ -1,19 +1,31 @@
-// The session: a catalog, the events so far, and where among them the robot is now. The event that is chosen on the
+// The session: a catalog, what was done so far, and where among it the robot is now. The event that is chosen on the
 // timeline is the present one: what is asked for next happens after it, and what came later is gone.
+//
+// What was done is kept here as well as in the program: a mission that was loaded, and the requests after it. With
+// another catalog, or after the program was lost, all of it is done again.
 
 class Simulation {
-  /** `view`: {onState(), onText(), onNote(text, isBad), onFindings(kind, findings)}. */
+  /** `view`: {onCatalog(catalog, requestable), onState(), onText(), onNote(text, isBad), onFindings(kind, findings),
+   * onLeave()}. */
   constructor(engine, view) {
     this.engine = engine;
     this.view = view;
     this.page = null;
-    this.catalogText = '';
     this.catalogName = 'robot.yaml';
+    this.catalogText = null; // of the robot; null: there has been none
     this.isOpen = false;
-    this.due = { timeouts: {}, next: null, now: 0 };
+    this.isStale = false; // the last text has errors, and the robot is an earlier one
     this.work = Promise.resolve(); // what was asked for is done one after the other
-    this.index = 0; // of the present event
-    this.loaded = null; // the mission, as long as nothing else was done
+    this.place = { index: 0, time: 0, entry: 0, entries: 0 }; // the present state, see session.h
+    this.due = { timeouts: {}, next: null, now: 0 };
+    this.forget();
+  }
+
+  forget() {
+    this.mission = ''; // that was loaded
+    this.missionEntries = 0; // of it, in the program
+    this.done = []; // requests after it
+    this.lost = null; // {count} of these that could be done again, if not all could
   }
 
   /** One thing after the other. What fails is told, and the next one goes on. */
@@ -28,68 +40,148 @@ class Simulation {
     if (error instanceof Ended || error instanceof Failed) this.isOpen = false;
   }
 
-  /** A catalog; `mission`, if not null, is run with it. `isWritten`: somebody wants its text as it is. */
-  open(text, mission = null, isWritten = true) {
+  /** Another session. */
+  open(text, mission = '') {
     return this.do(async () => {
-      this.catalogText = text;
-      const answer = await this.engine.ask({ do: 'open', catalog: text, name: this.catalogName });
-      this.view.onFindings('catalog', findingsOf(answer));
-      if (answer.catalog === undefined) {
-        if (this.isOpen) this.view.onNote('The catalog has errors. The robot is the last one that had none.', true);
-        return;
-      }
-      this.view.onNote('', false);
-      this.isOpen = true;
-      this.catalog = new Catalog(answer.catalog);
-      const moves = (await this.engine.ask({ do: 'what_if' })).report.moves;
-      this.view.onCatalog(this.catalog, new Set(moves.filter((move) => move.verb === 'start').map((move) => move.name)));
-      this.loaded = null;
-      this.showRun(answer.begin, [], []);
-      if (mission !== null) await this.loadNow(mission, isWritten);
-      else await this.arrive();
+      this.forget();
+      this.mission = mission;
+      await this.openNow(text);
     });
   }
 
-  load(mission) {
-    return this.do(() => this.loadNow(mission));
+  /** The robot has changed: what was done is done with the new one, as far as it has errors no more. */
+  change(text) {
+    return this.do(() => this.openNow(text));
   }
 
-  async loadNow(mission, isWritten = true) {
-    const answer = await this.engine.ask({ do: 'load', mission, name: 'mission.yaml' });
-    const findings = findingsOf(answer);
-    this.view.onFindings('mission', findings);
-    if (answer.begin === undefined) {
-      const [first] = findings;
-      if (first !== undefined) this.view.onNote(`the mission does not fit: line ${first.line}: ${first.message}`, true);
-      return this.arrive();
+  /** After the program was lost. */
+  recover() {
+    return this.do(async () => {
+      if (this.catalogText !== null) await this.openNow(this.catalogText);
+    });
+  }
+
+  async openNow(text) {
+    const answer = await this.engine.ask({ do: 'open', catalog: text, name: this.catalogName });
+    this.view.onFindings('catalog', findingsOf(answer));
+    this.isStale = answer.catalog === undefined;
+    if (this.isStale) {
+      if (this.isOpen) this.view.onState();
+      else this.view.onNote('The catalog has errors, so there is no robot yet.', true);
+      return;
     }
-    this.loaded = isWritten ? mission : null;
-    this.showRun(answer.begin, answer.events, answer.failures);
-    await this.arrive();
+    this.catalogText = text;
+    this.catalog = new Catalog(answer.catalog);
+    const { moves } = (await this.engine.ask({ do: 'what_if' })).report;
+    this.view.onCatalog(this.catalog, new Set(moves.filter((move) => move.verb === 'start').map((move) => move.name)));
+    this.isOpen = true;
+    await this.repeat(answer.begin);
   }
 
-  /** An entry of a mission, at the present state. */
-  apply(entry) {
-    return this.do(() => this.take({ do: 'apply', event: JSON.stringify(entry) }));
+  /** Does again what was done, and goes where the session was. What does not fit is kept until something else is done. */
+  async repeat(begin) {
+    const { entry, entries } = this.place;
+    const isPast = entry < entries;
+    const news = { begin, events: [], failures: [] };
+    let note = '';
+    this.lost = null;
+    this.missionEntries = 0;
+    this.view.onFindings('mission', []);
+    let last = { index: 0, time: 0, entry: 0, entries: 0 };
+    if (this.mission !== '') {
+      const answer = await this.engine.ask({ do: 'load', mission: this.mission, name: 'mission.yaml' });
+      const findings = findingsOf(answer);
+      this.view.onFindings('mission', findings);
+      if (answer.begin === undefined) {
+        note = `The mission does not fit this robot: line ${findings[0]?.line}: ${findings[0]?.message}`;
+        this.lost = { count: 0 };
+      } else {
+        Object.assign(news, answer);
+        last = answer;
+        this.missionEntries = answer.entries;
+      }
+    }
+    for (let count = 0; this.lost === null && count < this.done.length; ++count) {
+      try {
+        last = await this.engine.ask(this.done[count]);
+        news.events.push(...last.events);
+        news.failures.push(...last.failures);
+      } catch (error) {
+        if (error instanceof Ended || error instanceof Failed) throw error;
+        note = `What you did does not fit this robot from step ${count + 1} on: ${error.message}`;
+        this.lost = { count };
+      }
+    }
+    this.showRun(news.begin, news.events, news.failures);
+    if (this.lost === null && isPast && entry <= last.entries) last = await this.engine.ask({ do: 'goto', entry });
+    await this.arrive(last);
+    this.view.onNote(note, note !== '');
+    this.view.onText();
+  }
+
+  /** A mission, in place of what was done. Returns whether it could be used. */
+  async load(mission) {
+    await this.do(async () => {
+      if (!this.isOpen) throw new Error('there is no robot yet: the catalog has errors');
+      const answer = await this.engine.ask({ do: 'load', mission, name: 'mission.yaml' });
+      const findings = findingsOf(answer);
+      this.view.onFindings('mission', findings);
+      if (answer.begin === undefined) {
+        this.view.onNote(`The mission has errors: line ${findings[0]?.line}: ${findings[0]?.message}`, true);
+        return;
+      }
+      this.forget();
+      this.mission = mission;
+      this.missionEntries = answer.entries;
+      this.showRun(answer.begin, answer.events, answer.failures);
+      await this.arrive(answer);
+      this.view.onNote('', false);
+    });
+    return this.mission === mission;
+  }
+
+  /** An entry of a mission, at the present state; `clock`: seconds until then, if the clock has run. */
+  apply(entry, clock = null) {
+    return this.do(async () => {
+      if (clock !== null && clock > this.place.time) await this.take({ do: 'advance', to: clock });
+      await this.take({ do: 'apply', event: JSON.stringify(entry) });
+    });
   }
 
   /** Lets the clock go on: to a time in seconds, or to what is due next. */
   advance(to) {
-    return this.do(() => this.take({ do: 'advance', ...(to === undefined ? {} : { to }) }));
+    return this.do(async () => {
+      if (to === undefined || to > this.place.time) await this.take({ do: 'advance', ...(to === undefined ? {} : { to }) });
+    });
+  }
+
+  step(seconds) {
+    return this.do(() => this.take({ do: 'advance', to: this.place.time + seconds }));
   }
 
   async take(request) {
     if (!this.isOpen) throw new Error('there is no robot yet: the catalog has errors');
+    const before = this.place;
+    const isForked = before.entry < this.missionEntries;
+    const missionUntilNow = isForked ? (await this.engine.ask({ do: 'mission' })).mission : this.mission;
     const answer = await this.engine.ask(request);
+    if (this.lost !== null) this.done.length = this.lost.count;
+    else this.done.length = Math.max(0, Math.min(this.done.length, before.entry - this.missionEntries));
+    if (this.lost !== null && this.missionEntries === 0) this.mission = '';
+    else this.mission = missionUntilNow;
+    if (isForked) this.missionEntries = before.entry;
+    this.lost = null;
+    // The clock had made only a part of what it had been asked for.
+    if (answer.entry === before.entry + 2) this.done.push({ do: 'advance', to: before.time });
+    this.done.push(request.do === 'advance' ? { do: 'advance', to: answer.time } : request);
+
     const { first, events, failures, warnings = [] } = answer;
-    this.loaded = null;
     const { run } = this.page;
     if (first > run.size) {
       this.page.growRun(events, failures);
     } else {
-      const kept = run.events.slice(0, first - 1);
       const keptFailures = run.data.expectations.failures.filter((failure) => failure.index < first);
-      this.showRun(run.begin, [...kept, ...events], [...keptFailures, ...failures]);
+      this.showRun(run.begin, [...run.events.slice(0, first - 1), ...events], [...keptFailures, ...failures]);
     }
     await this.arrive(answer);
     const rejected = events.find((event) => event.outcome === 'rejected');
@@ -99,16 +191,23 @@ class Simulation {
     this.view.onText();
   }
 
-  /** What an entry would do: a move of cbc.what-if/1, or an error. */
+  /** What an entry would do: a move of cbc.what-if/1, or an error; undefined if the program was lost meanwhile. */
   async whatIf(entry) {
-    const { report, errors } = await this.engine.ask({ do: 'what_if', events: [JSON.stringify(entry)] });
-    return errors.length > 0 ? { error: errors[0] } : { move: report.moves[0] };
+    let found;
+    await this.do(async () => {
+      if (!this.isOpen) return;
+      const { report, errors } = await this.engine.ask({ do: 'what_if', events: [JSON.stringify(entry)] });
+      found = errors.length > 0 ? { error: errors[0] } : { move: report.moves[0] };
+    });
+    return found;
   }
 
   /** Another event was chosen; see Page. */
   onChoice(number) {
     const index = this.page.run.size === 0 ? 0 : number;
-    if (!this.isArriving && index !== this.index) this.goTo(index);
+    if (this.isArriving || index === this.place.index) return;
+    this.view.onLeave();
+    this.goTo(index);
   }
 
   refusalTexts() {
@@ -117,62 +216,68 @@ class Simulation {
 
   goTo(index) {
     return this.do(async () => {
-      const answer = await this.engine.ask({ do: 'goto', index });
-      await this.arrive(answer);
-      this.view.onText();
+      const wanted = Math.max(0, Math.min(index, this.page.run.size));
+      await this.arrive(await this.engine.ask({ do: 'goto', index: wanted }));
     });
   }
 
-  /** To before the last thing that was done, with all that followed it at once. */
   undo() {
+    return this.go(-1);
+  }
+
+  redo() {
+    return this.go(1);
+  }
+
+  /** To the next entry, in one direction, with which something differs: expectations change nothing. */
+  go(step) {
     return this.do(async () => {
-      const present = this.index;
-      let answer = { index: present };
-      for (let wanted = present - 1; wanted >= 0 && answer.index >= present; --wanted) {
-        answer = await this.engine.ask({ do: 'goto', index: wanted });
+      const { index, time, entry, entries } = this.place;
+      let answer = this.place;
+      // The present state may be amid the entry after this one.
+      for (let wanted = step > 0 ? entry + 1 : entry; wanted >= 0 && wanted <= entries; wanted += step) {
+        answer = await this.engine.ask({ do: 'goto', entry: wanted });
+        if (answer.index !== index || answer.time !== time) break;
       }
       await this.arrive(answer);
-      this.view.onText();
     });
   }
 
-  /** The present state is that after the event of an answer, or after the last one. */
-  async arrive(answer = { index: this.page.run.size }) {
-    this.index = answer.index;
+  /** The present state is that of an answer. */
+  async arrive({ index, time, entry, entries }) {
+    this.place = { index, time, entry, entries };
     const state = await this.engine.ask({ do: 'state' });
-    this.due = { timeouts: state.timeouts, next: state.next_due, now: answer.time ?? state.report.time };
+    this.due = { timeouts: state.timeouts, next: state.next_due, now: time };
     this.isArriving = true;
-    this.page.choose(Math.max(1, this.index), true);
+    this.page.choose(Math.max(1, index), true);
     this.isArriving = false;
     this.view.onState();
   }
 
-  /** The mission up to the present event: its text as it was written, until something else is done. */
-  async mission() {
-    if (!this.isOpen) return '';
-    if (this.loaded !== null && this.index === this.page.run.size) return this.loaded;
-    return (await this.engine.ask({ do: 'mission' })).mission;
-  }
-
-  /** The mission with all events, also those after the present one, and the index of that: {mission, index}. */
+  /** The mission with all that was done, as it was loaded if nothing was done since, and the index of the present
+   * event: {mission, index}. */
   async whole() {
-    let whole = { mission: '', index: 0 };
+    let whole = { mission: this.mission, index: this.place.index };
     await this.do(async () => {
-      if (!this.isOpen || this.page.run.size === 0) return;
-      const { index } = this;
-      if (this.canRedo) await this.engine.ask({ do: 'goto', index: this.page.run.size });
-      whole = { mission: await this.mission(), index };
-      if (this.canRedo) await this.engine.ask({ do: 'goto', index });
+      if (!this.isOpen || this.done.length === 0 || this.lost !== null) return;
+      const { index, entry, entries } = this.place;
+      if (entry < entries) await this.engine.ask({ do: 'goto', entry: entries });
+      whole = { mission: (await this.engine.ask({ do: 'mission' })).mission, index };
+      if (entry < entries) await this.engine.ask({ do: 'goto', index });
     });
     return whole;
   }
 
   async why(subject) {
-    return (await this.engine.ask({ do: 'why', subject, index: this.index })).event;
+    let event = null;
+    await this.do(async () => {
+      event = (await this.engine.ask({ do: 'why', subject, index: this.place.index })).event;
+    });
+    return event;
   }
 
   showRun(begin, events, failures) {
-    const data = { catalog: this.catalogName, script: 'session', events,
+    const data = { catalog: this.catalogName, script: this.catalogName, events,
                    expectations: { passed: 0, failed: failures.length, failures, successes: [] } };
     const run = new Run(data, this.catalog, begin);
     if (this.page === null) {
@@ -184,11 +289,11 @@ class Simulation {
   }
 
   get canUndo() {
-    return this.index > 0;
+    return this.place.index > 0 || this.place.entry > 0;
   }
 
   get canRedo() {
-    return this.page !== null && this.index < this.page.run.size;
+    return this.place.entry < this.place.entries;
   }
 }
 
