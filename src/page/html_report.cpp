@@ -13,8 +13,10 @@
 #include "core/catalog/situation.h"
 #include "core/compile/catalog_json.h"
 #include "core/report/event_description.h"
+#include "core/script/script.h"
 #include "core/script/state_json.h"
 #include "core/support/json.h"
+#include "core/support/wording.h"
 #include "page/script_element.h"
 #include "page_files.h"
 
@@ -98,8 +100,9 @@ void HtmlReport::add_catalog(const CompiledCatalog& catalog) {
   catalogs_json_ += catalog_of_page(catalog);
   catalogs_.push_back(&catalog);
   const std::string* const text = text_of_ ? text_of_(catalog) : nullptr;
-  have_text_.push_back(text != nullptr && takes_text(text->size()));
-  if (!have_text_.back()) return;
+  const bool has_text = text != nullptr && takes_text(text->size());
+  have_text_.push_back(has_text);
+  if (!has_text) return;
   catalogs_json_.pop_back();
   catalogs_json_ += R"(,"text":)";
   append_text(catalogs_json_, *text);

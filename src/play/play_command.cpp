@@ -132,7 +132,7 @@ std::string session_of(const EditedFiles& files) {
   JsonWriter json(session);
   json.open('{');
   const std::filesystem::path path = files.find(catalog)->second.path();
-  json.write("name", path.filename().string());
+  json.write("name", printable(path.filename().string()));
   for (const auto& [role, file] : files) json.write(role, file.text());
   json.open("files", '{');
   for (const auto& [role, file] : files) {

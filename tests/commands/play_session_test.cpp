@@ -15,9 +15,9 @@
 #include "core/script/reader.h"
 #include "core/script/runner.h"
 #include "core/yaml/document.h"
-#include "wasm/session.h"
 #include "support/catalog_files.h"
 #include "support/read_file.h"
+#include "wasm/session.h"
 
 namespace cbc::play::play_session_test {
 namespace {
