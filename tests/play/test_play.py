@@ -373,7 +373,7 @@ class Proofs(PlayCase):
         self.prove(re.sub(r"^assume:", "assume:\n  faults: 3", properties, flags=re.M)
                    if "\nassume:" in properties else properties + "assume: {faults: 3}\n")
         self.wait("byId('proofs').textContent.includes('exploring states')")
-        self.press("start " + self.ask("[...play.robot.tasks].find(([, row]) => row.isRequestable)[0]"))
+        self.press("start " + self.ask("[...play.robot.requestable][0]"))
         self.assertEqual(self.ask("play.simulation.page.run.events.at(-1).verb"), "start")  # the robot goes on
         self.click("#prove-end")
         self.wait("byId('proofs').textContent.includes('stopped')")
@@ -616,7 +616,7 @@ class Page(PlayCase):
         self.ask("play.openExample('hospital').then(() => true)")
         self.idle()
         times = self.ask("""(async () => {
-          const tasks = [...play.robot.tasks].filter(([, row]) => row.isRequestable).map(([name]) => name);
+          const tasks = [...play.robot.requestable];
           const frame = () => new Promise(requestAnimationFrame);
           const times = [];
           for (let number = 0; play.simulation.page.run.size < 340; ++number) {

@@ -319,8 +319,9 @@ class Play {
   /** With the name of its catalog, as a file has it. */
   async missionText() {
     const { mission } = await this.simulation.whole();
-    const hasName = /^["']?catalog["']?:/m.test(mission) || /^\s*[[{]/.test(mission);
-    return hasName ? mission : `catalog: ${JSON.stringify(this.simulation.catalogName)}\n${mission || 'events: []\n'}`;
+    if (/^\s*[[{]/.test(mission)) return mission; // JSON, as it was loaded
+    const line = `catalog: ${JSON.stringify(this.simulation.catalogName)}`;
+    return /^catalog:/m.test(mission) ? mission.replace(/^catalog:.*$/m, () => line) : `${line}\n${mission || 'events: []\n'}`;
   }
 
   /** Whatever takes long can be ended. */

@@ -25,7 +25,7 @@ class Simulation {
     this.mission = ''; // that was loaded
     this.missionEntries = 0; // of it, in the program
     this.done = []; // requests after it
-    this.lost = null; // {count} of these that could be done again, if not all could
+    this.lost = null; // if not all could be done again: {count} of these, and the place before
   }
 
   /** One thing after the other. What fails is told, and the next one goes on. */
@@ -80,7 +80,8 @@ class Simulation {
 
   /** Does again what was done, and goes where the session was. What does not fit is kept until something else is done. */
   async repeat(begin) {
-    const { entry, entries } = this.place;
+    const place = this.lost?.place ?? this.place;
+    const { entry, entries } = place;
     const isPast = entry < entries;
     const news = { begin, events: [], failures: [] };
     let note = '';
@@ -94,7 +95,7 @@ class Simulation {
       this.view.onFindings('mission', findings);
       if (answer.begin === undefined) {
         note = `The mission does not fit this robot: line ${findings[0]?.line}: ${findings[0]?.message}`;
-        this.lost = { count: 0 };
+        this.lost = { count: 0, place };
       } else {
         Object.assign(news, answer);
         last = answer;
@@ -109,7 +110,7 @@ class Simulation {
       } catch (error) {
         if (error instanceof Ended || error instanceof Failed) throw error;
         note = `What you did does not fit this robot from step ${count + 1} on: ${error.message}`;
-        this.lost = { count };
+        this.lost = { count, place };
       }
     }
     this.showRun(news.begin, news.events, news.failures);
