@@ -21,7 +21,12 @@ const mostRows = 200; // of tasks or behaviors at once; the filter reaches the o
 
 /** A control that is off keeps the focus, so that keys go on from there. */
 const isOff = (button) => button.getAttribute('aria-disabled') === 'true';
-const setOff = (button, isOffNow) => button.setAttribute('aria-disabled', `${isOffNow}`);
+const setOff = (button, isOffNow) => setState(button, 'aria-disabled', isOffNow);
+
+/** Only what has changed is laid out again. */
+function setState(button, name, value) {
+  if (button.getAttribute(name) !== `${value}`) button.setAttribute(name, value);
+}
 
 /** A control that asks for an event, and says before what it would do. */
 function eventButton(text, label, entry, { onAsk, onPreview }) {
@@ -148,7 +153,7 @@ class Robot {
     }
     for (const [name, row] of this.variables) {
       for (const [value, button] of row.choices) {
-        button.setAttribute('aria-pressed', `${`${values.get(name)}` === value}`);
+        setState(button, 'aria-pressed', `${values.get(name)}` === value);
       }
     }
   }
@@ -176,6 +181,6 @@ class Robot {
   say(row, parts, look) {
     const text = parts.filter((part) => part !== '').join(' \u00b7 ');
     if (row.state.textContent !== text) row.state.textContent = text;
-    row.item.dataset.look = look;
+    if (row.item.dataset.look !== look) row.item.dataset.look = look;
   }
 }
