@@ -46,8 +46,7 @@ namespace cbc::play {
 ///            `errors` of entries that are left out
 ///   state    `report`, as cbc.what-if/1 without moves; `timeouts`, by task; `next_due`, or null
 ///   why      subject (a task or behavior), index (of an event; absent: now): the `event` that
-///   decided
-///            about it, as `cbc solve --why --format json` has it, or null
+///            decided about it, as `cbc solve --why --format json` has it, or null
 ///   mission  `mission`: the session as a script, with expectations
 class Session {
  public:

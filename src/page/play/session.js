@@ -90,11 +90,9 @@ class Simulation {
     this.view.onFindings('mission', []);
     let last = { index: 0, time: 0, entry: 0, entries: 0 };
     if (this.mission !== '') {
-      const answer = await this.engine.ask({ do: 'load', mission: this.mission, name: 'mission.yaml' });
-      const findings = findingsOf(answer);
-      this.view.onFindings('mission', findings);
-      if (answer.begin === undefined) {
-        note = `The mission does not fit this robot: line ${findings[0]?.line}: ${findings[0]?.message}`;
+      const { answer, fault } = await this.askLoad(this.mission);
+      if (fault !== null) {
+        note = `The mission does not fit this robot: ${fault}`;
         this.lost = { count: 0, place };
       } else {
         Object.assign(news, answer);
@@ -123,12 +121,10 @@ class Simulation {
   /** A mission, in place of what was done. Returns whether it could be used. */
   async load(mission) {
     await this.do(async () => {
-      if (!this.isOpen) throw new Error('there is no robot yet: the catalog has errors');
-      const answer = await this.engine.ask({ do: 'load', mission, name: 'mission.yaml' });
-      const findings = findingsOf(answer);
-      this.view.onFindings('mission', findings);
-      if (answer.begin === undefined) {
-        this.view.onNote(`The mission has errors: line ${findings[0]?.line}: ${findings[0]?.message}`, true);
+      this.needRobot();
+      const { answer, fault } = await this.askLoad(mission);
+      if (fault !== null) {
+        this.view.onNote(`The mission has errors: ${fault}`, true);
         return;
       }
       this.forget();
@@ -139,6 +135,19 @@ class Simulation {
       this.view.onNote('', false);
     });
     return this.mission === mission;
+  }
+
+  /** Runs a mission: the answer, and where it is wrong, or null. */
+  async askLoad(mission) {
+    const answer = await this.engine.ask({ do: 'load', mission, name: 'mission.yaml' });
+    const findings = findingsOf(answer);
+    this.view.onFindings('mission', findings);
+    const [first] = findings;
+    return { answer, fault: answer.begin === undefined ? `line ${first?.line}: ${first?.message}` : null };
+  }
+
+  needRobot() {
+    if (!this.isOpen) throw new Error('there is no robot yet: the catalog has errors');
   }
 
   /** An entry of a mission, at the present state; `clock`: seconds until then, if the clock has run. */
@@ -161,13 +170,13 @@ class Simulation {
   }
 
   async take(request) {
-    if (!this.isOpen) throw new Error('there is no robot yet: the catalog has errors');
+    this.needRobot();
     const before = this.place;
     const isForked = before.entry < this.missionEntries;
     const missionUntilNow = isForked ? (await this.engine.ask({ do: 'mission' })).mission : this.mission;
     const answer = await this.engine.ask(request);
-    if (this.lost !== null) this.done.length = this.lost.count;
-    else this.done.length = Math.max(0, Math.min(this.done.length, before.entry - this.missionEntries));
+    const kept = this.lost?.count ?? Math.max(0, before.entry - this.missionEntries);
+    this.done.length = Math.min(this.done.length, kept);
     if (this.lost !== null && this.missionEntries === 0) this.mission = '';
     else this.mission = missionUntilNow;
     if (isForked) this.missionEntries = before.entry;
