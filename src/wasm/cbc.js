@@ -7,6 +7,25 @@ async function unpack(base64) {
   return new Response(stream).arrayBuffer();
 }
 
+/** Makes a terminal of an instance. Lines of progress, which would be written over, go to `onProgress`. */
+function addTerminal(FS, path, onProgress) {
+  const device = FS.makedev(64, 0);
+  let text = '';
+  FS.registerDevice(device, {
+    open: (stream) => Object.assign(stream, { tty: {}, seekable: false }),
+    write: (stream, buffer, offset, length) => {
+      const written = new TextDecoder().decode(buffer.slice(offset, offset + length));
+      text += written.replace(/\r([^\n\x1b]*)\x1b\[K/g, (all, line) => {
+        onProgress(line);
+        return '';
+      });
+      return length;
+    },
+  });
+  FS.mkdev(path, 0o600, device);
+  return { bytes: () => new TextEncoder().encode(text) };
+}
+
 class Cbc {
   /** `bytes`: of play.wasm, or a promise of them. */
   static async load(bytes) {
@@ -17,10 +36,11 @@ class Cbc {
     this.module = module;
   }
 
-  /** An instance with memory and files of its own. */
-  instantiate() {
+  /** An instance with memory and files of its own. `environment`: variables -> values. */
+  instantiate(environment = {}) {
     return createCbc({
       thisProgram: 'cbc',
+      preRun: ({ ENV }) => Object.assign(ENV, environment),
       instantiateWasm: (imports, take) => {
         WebAssembly.instantiate(this.module, imports).then((instance) => take(instance, this.module));
         return {};
@@ -32,9 +52,10 @@ class Cbc {
    * Runs a command line as the program does, in an instance of its own, so that no run knows of another one.
    * `files`: path -> text or bytes, below the working directory `folder`. Returns {status, stdout, stderr, files}:
    * bytes of what it wrote; `files`: path -> bytes of those that are new or have changed, relative to `folder`.
+   * `onProgress(line)`: takes what the program tells of its progress, as on a terminal.
    */
-  async run(programArguments, files = {}, { stdin = '', folder = '/work' } = {}) {
-    const { FS, callMain } = await this.instantiate();
+  async run(programArguments, files = {}, { stdin = '', folder = '/work', onProgress = null } = {}) {
+    const { FS, callMain } = await this.instantiate(onProgress === null ? {} : { TERM: 'xterm', NO_COLOR: '1' });
     const write = (path, content) => {
       FS.mkdirTree(path.slice(0, path.lastIndexOf('/')));
       FS.writeFile(path, content);
@@ -49,6 +70,7 @@ class Cbc {
     }
     // In this order, as an opened file takes the lowest free descriptor.
     write('/dev/shm/stdin', stdin);
+    const terminal = onProgress === null ? null : addTerminal(FS, '/dev/shm/stderr', onProgress);
     for (const descriptor of [0, 1, 2]) FS.close(FS.streams[descriptor]);
     for (const [name, mode] of [['stdin', 'r'], ['stdout', 'w+'], ['stderr', 'w+']]) {
       FS.open(`/dev/shm/${name}`, mode);
@@ -67,7 +89,8 @@ class Cbc {
       }
     };
     visit(folder);
-    return { status, stdout: FS.readFile('/dev/shm/stdout'), stderr: FS.readFile('/dev/shm/stderr'), files: written };
+    const stderr = terminal === null ? FS.readFile('/dev/shm/stderr') : terminal.bytes();
+    return { status, stdout: FS.readFile('/dev/shm/stdout'), stderr, files: written };
   }
 
   /** A session of the simulator: a function that takes a request and returns the answer; see session.h. */

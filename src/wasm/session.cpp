@@ -30,8 +30,8 @@ Microseconds read_time(const JsonValue& value) {
   return std::llround(value.number(0, latest, "of seconds from 0 to 1000000000") * microseconds);
 }
 
-std::string text_or(const JsonValue& request, std::string_view name, std::string_view otherwise) {
-  const auto value = request.find(name);
+std::string name_or(const JsonValue& request, std::string_view otherwise) {
+  const auto value = request.find("name");
   return value ? value->text() : std::string(otherwise);
 }
 
@@ -88,8 +88,8 @@ std::string Session::answer(std::string_view text) {
     const std::string what = request["do"].text();
     JsonWriter json(answer);
     json.open('{');
-    if (what == "check" || what == "open") {
-      check(request, what == "open", json);
+    if (what == "open") {
+      open(request, json);
     } else if (catalog_ == nullptr) {
       throw JsonFault("expected an 'open' first, found " + quote(what));
     } else if (what == "load") {
@@ -124,37 +124,29 @@ std::string Session::answer(std::string_view text) {
   return answer;
 }
 
-void Session::check(const JsonValue& request, bool begins, JsonWriter& answer) {
-  const std::string name = text_or(request, "name", "catalog.yaml");
-  Diagnostics of_settings;
-  const auto settings =
-      read_settings(text_or(request, "settings", ""), std::string(settings_file_name), of_settings);
+void Session::open(const JsonValue& request, JsonWriter& answer) {
+  const std::string name = name_or(request, "catalog.yaml");
   cli::FileSet files(cli::FileSet::Findings::dropped);
   const auto file = files.parse(name, request["catalog"].text());
-  auto checked = std::make_shared<CheckedCatalog>(
-      cli::check_catalog_file(*file, settings.value_or(SeveritySettings()), {}));
-  std::vector<LintedFile> linted(1);
-  linted[0] = {name, *file->text, checked->findings, {}, LintedFile::Kind::catalog};
-  if (checked->compiled != nullptr) linted[0].summary = summarize(*checked->compiled);
-  if (!settings) {
-    linted.push_back({std::string(settings_file_name),
-                      text_or(request, "settings", ""),
-                      of_settings.all(),
-                      {},
-                      LintedFile::Kind::settings});
-  }
-  answer.write_json("lint", lint_json(linted));
-  if (!begins || !settings || checked->errors > 0 || checked->compiled == nullptr) return;
+  auto checked = std::make_shared<CheckedCatalog>(cli::check_catalog_file(*file, {}, {}));
+  LintedFile linted{name, *file->text, checked->findings, {}, LintedFile::Kind::catalog};
+  if (checked->compiled != nullptr) linted.summary = summarize(*checked->compiled);
+  answer.write_json("lint", lint_json({linted}));
+  if (checked->errors > 0 || checked->compiled == nullptr) return;
   source_ = std::move(checked);
   catalog_ = source_->compiled.get();
-  settings_ = *settings;
   begin({});
   answer.write_json("catalog", catalog_of_page(*catalog_));
+  answer.open("requestable", '[');
+  for (const CompiledTask& task : catalog_->tasks) {
+    if (task.start_on_request != 0) answer.write(catalog_->task_names[task.catalog_index]);
+  }
+  answer.close(']');
   tell_present(answer);
 }
 
 void Session::load(const JsonValue& request, JsonWriter& answer) {
-  const std::string name = text_or(request, "name", "mission.yaml");
+  const std::string name = name_or(request, "mission.yaml");
   cli::FileSet files(cli::FileSet::Findings::dropped);
   const auto file = files.parse(name, request["mission"].text());
   LintedFile linted{name, *file->text, {}, {}, LintedFile::Kind::script};
@@ -162,7 +154,7 @@ void Session::load(const JsonValue& request, JsonWriter& answer) {
   if (file->document == nullptr) {
     linted.findings = file->diagnostics.all();
   } else {
-    linted.findings = cli::check_about_catalog(*file, *catalog_, settings_);
+    linted.findings = cli::check_about_catalog(*file, *catalog_, {});
     Diagnostics diagnostics;
     script = read_script(*file->document, *catalog_, Severity::warning, diagnostics);
   }
@@ -352,11 +344,11 @@ void Session::go_to(const JsonValue& request, JsonWriter& answer) {
   tell_place(answer);
 }
 
-std::string Session::what_if_report(const std::vector<Step>& steps, bool has_moves) const {
+std::string Session::what_if_report(const std::vector<Step>& moves) const {
   const MissionMoment moment{present(), std::nullopt};
   WhatIfJson report({*catalog_, script_, moment, runner_->coordinator().state()});
-  if (has_moves) {
-    const RunResult result = try_moves(*catalog_, options_of(script_), moment.snapshot, steps,
+  if (!moves.empty()) {
+    const RunResult result = try_moves(*catalog_, options_of(script_), moment.snapshot, moves,
                                        [&report](const PossibleMove& move) { report.add(move); });
     if (!result.internal_error.empty()) throw JsonFault("internal error: " + result.internal_error);
   }
@@ -364,26 +356,14 @@ std::string Session::what_if_report(const std::vector<Step>& steps, bool has_mov
 }
 
 void Session::what_if(const JsonValue& request, JsonWriter& answer) {
-  std::vector<Step> steps;
-  std::vector<std::string> errors;
-  if (const auto entries = request.find("events")) {
-    for (const JsonValue& entry : entries->items()) {
-      EventLines::Reading reading = read_entry(entry, *catalog_, runner_->coordinator());
-      if (reading.step && !reading.step->expect) {
-        steps.push_back(std::move(*reading.step));
-      } else {
-        errors.push_back(reading.step ? "expected an event, found an expectation" : reading.error);
-      }
-    }
-  } else {
-    steps = list_moves(*catalog_, runner_->coordinator().state(), choice_of(*catalog_, script_));
-  }
-  answer.write_json("report", what_if_report(steps, true));
-  answer.write_list("errors", errors);
+  EventLines::Reading reading = read_entry(request["event"], *catalog_, runner_->coordinator());
+  if (!reading.step) throw JsonFault(reading.error);
+  if (reading.step->expect) throw JsonFault("expected an event, found an expectation");
+  answer.write_json("report", what_if_report({std::move(*reading.step)}));
 }
 
 void Session::tell_state(JsonWriter& answer) {
-  answer.write_json("report", what_if_report({}, false));
+  answer.write_json("report", what_if_report({}));
   answer.open("timeouts", '{');
   for (const auto& [due, task] : runner_->coordinator().state().timeouts().entries()) {
     answer.write_seconds(catalog_->task_names[task], due);
@@ -408,26 +388,20 @@ std::size_t Session::decider_of(TaskId task, std::size_t index) const {
 }
 
 void Session::why(const JsonValue& request, JsonWriter& answer) {
-  const std::string name = request["subject"].text();
+  const std::string name = request["task"].text();
+  const auto task = catalog_->find_task(name);
+  if (!task) throw JsonFault("catalog " + quote(catalog_->file) + " has no task " + quote(name));
   const auto given = request.find("index");
   const auto last = static_cast<std::size_t>(present().events);
   const std::size_t index = given ? given->integer<std::size_t>(0, last) : last;
-  const auto task = catalog_->find_task(name);
-  const auto behavior = catalog_->find_behavior(name);
-  if (!task && !behavior) {
-    throw JsonFault("catalog " + quote(catalog_->file) + " has no task or behavior " + quote(name));
-  }
-  const TaskId of =
-      task ? catalog_->task_ids[*task]
-           : catalog_->task_of(catalog_->performs[catalog_->behavior_ids[*behavior]].front());
-  const std::size_t wanted = decider_of(of, index);
+  const std::size_t wanted = decider_of(catalog_->task_ids[*task], index);
   if (wanted == 0) return answer.write_json("event", "null");
   std::size_t place = 0;
   while (place < position_ && entries_[place]->after.events < wanted) ++place;
   const Entry& entry = place < position_ ? *entries_[place] : *cut_;
   Repetition repetition(*catalog_, wanted);
   CoordinatorOptions of_repetition = options();
-  of_repetition.explain.why = {{task.has_value(), task ? *task : *behavior}};
+  of_repetition.explain.why = {{true, *task}};
   Runner runner(*catalog_, of_repetition, repetition);
   runner.resume(place == 0 ? start_ : entries_[place - 1]->after);
   if (runner.take(entry.step) && entry.is_clock) static_cast<void>(runner.settle());

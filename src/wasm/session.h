@@ -28,10 +28,9 @@ namespace cbc::play {
 /// A request is an object whose member `do` says what is asked for; so is the answer. What is wrong
 /// with a request is the member `error` of the answer, and then nothing changes.
 ///
-///   check    catalog (its text), name, settings (the text of .cbc.yaml; may be absent): `lint`, as
-///            cbc.lint/1
-///   open     the same, and begins a session unless there are errors: also `catalog` and `begin`,
-///            as the page of --html gets them
+///   open     catalog (its text), name: `lint`, as cbc.lint/1; unless there are errors, a session
+///            begins: `catalog` and `begin`, as the page of --html gets them, and the tasks that
+///            are `requestable`
 ///   load     mission (its text), name: begins anew with all its entries: `lint`, and unless there
 ///            are errors `begin` and what an apply answers; if the clock runs away in it, what came
 ///            before stays
@@ -42,11 +41,10 @@ namespace cbc::play {
 ///   goto     index (of an event; 0: before all): `index`, `time`, `entry` and `entries` where that
 ///            is; what follows one event at once, and all that the clock does at its instant,
 ///            belongs to it. Or entry (how many are done)
-///   what_if  events (entries; absent: all that may be asked for): `report`, as cbc.what-if/1;
-///            `errors` of entries that are left out
+///   what_if  event (an entry): `report`, as cbc.what-if/1 with this move
 ///   state    `report`, as cbc.what-if/1 without moves; `timeouts`, by task; `next_due`, or null
-///   why      subject (a task or behavior), index (of an event; absent: now): the `event` that
-///            decided about it, as `cbc solve --why --format json` has it, or null
+///   why      task, index (of an event; absent: now): the `event` that decided about it, or null, as
+///            `cbc solve --why --format json` has it
 ///   mission  `mission`: the session as a script, with expectations
 class Session {
  public:
@@ -66,7 +64,7 @@ class Session {
     TaskId rejected = none;
   };
 
-  void check(const yaml::JsonValue& request, bool begins, JsonWriter& answer);
+  void open(const yaml::JsonValue& request, JsonWriter& answer);
   void load(const yaml::JsonValue& request, JsonWriter& answer);
   void apply(const yaml::JsonValue& request, JsonWriter& answer);
   void advance(const yaml::JsonValue& request, JsonWriter& answer);
@@ -86,13 +84,12 @@ class Session {
   void tell_present(JsonWriter& answer) const;
   void tell_place(JsonWriter& answer) const;
   void tell_news(std::uint64_t first, JsonWriter& answer);
-  [[nodiscard]] std::string what_if_report(const std::vector<Step>& steps, bool has_moves) const;
+  [[nodiscard]] std::string what_if_report(const std::vector<Step>& moves) const;
   [[nodiscard]] std::size_t decider_of(TaskId task, std::size_t index) const;
 
   std::shared_ptr<const CheckedCatalog> source_;
   const CompiledCatalog* catalog_ = nullptr;  ///< null: no session
-  SeveritySettings settings_;
-  Script script_;  ///< without its steps
+  Script script_;                             ///< without its steps
   Snapshot start_;
   std::vector<std::shared_ptr<const Entry>> entries_;
   std::size_t position_ = 0;          ///< how many of them are done

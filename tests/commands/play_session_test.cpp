@@ -183,9 +183,9 @@ TEST(PlaySession, SaysWhatAnEventWouldDo) {
     const Json request = random_request(page, choices);
     if (request["do"] == "apply") {
       const Json before = page.state();
-      const Json asked = page.ask({{"do", "what_if"}, {"events", {request["event"]}}});
+      const Json asked = page.ask({{"do", "what_if"}, {"event", request["event"]}});
       EXPECT_EQ(page.state(), before);
-      if (asked["errors"].empty()) {
+      if (!asked.contains("error")) {
         const Json move = asked["report"]["moves"][0];
         const std::size_t count = page.events.size();
         page.ask(request);
@@ -215,7 +215,7 @@ TEST(PlaySession, ExplainsAsSolveDoes) {
   for (const Json& task : page.catalog["tasks"]) {
     const std::vector<Json> events = page.run(task).events;
     for (std::size_t index = 0; index <= events.size(); ++index) {
-      const Json why = page.ask({{"do", "why"}, {"subject", task}, {"index", index}}).at("event");
+      const Json why = page.ask({{"do", "why"}, {"task", task}, {"index", index}}).at("event");
       if (why.is_null()) continue;
       ASSERT_LE(why["index"], index);
       EXPECT_EQ(why, events[why["index"].get<std::size_t>() - 1]);
@@ -259,8 +259,10 @@ TEST(PlaySession, RefusesWhatIsWrong) {
       {{"do", "advance"}, {"to", 1e300}},
       {{"do", "goto"}, {"index", 1000}},
       {{"do", "goto"}, {"index", -1}},
-      {{"do", "why"}, {"subject", "NOBODY"}},
-      {{"do", "why"}, {"subject", "LAND"}, {"index", 1000}},
+      {{"do", "what_if"}, {"event", "start: NOBODY"}},
+      {{"do", "what_if"}, {"event", "expect: {}"}},
+      {{"do", "why"}, {"task", "NOBODY"}},
+      {{"do", "why"}, {"task", "LAND"}, {"index", 1000}},
   };
   for (const Json& request : wrong) {
     EXPECT_TRUE(page.ask(request).contains("error")) << request;

@@ -51,11 +51,12 @@ def check_form(bill):
             check(LICENSE.fullmatch(package[key]), package[key])
         for reference in package.get("externalRefs", []):
             check(reference["referenceCategory"] == "PACKAGE-MANAGER" and reference["referenceType"] == "purl", reference)
-            check(re.fullmatch(r"pkg:deb/debian/[a-z0-9.%B-]+@[A-Za-z0-9.%~-]+\?arch=\w+", reference["referenceLocator"]),
+            check(re.fullmatch(r"pkg:(deb/debian/[a-z0-9.%B-]+@[A-Za-z0-9.%~-]+\?arch=\w+|npm/(%40)?[a-z/-]+@[0-9.]+)",
+                               reference["referenceLocator"]),
                   reference["referenceLocator"])
     for relation in bill["relationships"]:
         check({relation["spdxElementId"], relation["relatedSpdxElement"]} <= set(names), relation)
-        check(relation["relationshipType"] in ("DESCRIBES", "DYNAMIC_LINK", "STATIC_LINK"), relation)
+        check(relation["relationshipType"] in ("DESCRIBES", "DYNAMIC_LINK", "STATIC_LINK", "CONTAINS"), relation)
     related = {relation["relatedSpdxElement"] for relation in bill["relationships"]}
     check(related == {*names} - {bill["SPDXID"]}, "a package is related to nothing")
 

@@ -1,9 +1,10 @@
 """Writes the software bill of materials of the Debian package, as SPDX 2.3 in JSON.
 
-    sbom.py --name NAME --version VERSION --program PROGRAM --build FOLDER --output FILE
+    sbom.py --name NAME --version VERSION --program PROGRAM --build FOLDER [--page LOCK] --output FILE
 
 It lists what the program really has in it: the shared libraries that it is linked with, and the Debian packages of the
-headers that were compiled into it, by the records of Ninja. The time is that of SOURCE_DATE_EPOCH, if that is set: then the same build
+headers that were compiled into it, by the records of Ninja. With --page LOCK also the packages of npm in the page of
+the simulator, by its lock file. The time is that of SOURCE_DATE_EPOCH, if that is set: then the same build
 gives the same bytes.
 """
 
@@ -100,6 +101,31 @@ def describe(package):
     return described
 
 
+def describe_module(path, module):
+    """A package of SPDX for a package of npm, as a lock file has it."""
+    name = path.removeprefix("node_modules/")
+    return {
+        "SPDXID": "SPDXRef-npm-" + re.sub(r"[^A-Za-z0-9.-]", "-", name.lstrip("@")),
+        "name": name,
+        "versionInfo": module["version"],
+        "supplier": "NOASSERTION",
+        "downloadLocation": "NOASSERTION",
+        "filesAnalyzed": False,
+        "comment": "In the page of the simulator, cbc-play.html.",
+        "licenseConcluded": "NOASSERTION",
+        "licenseDeclared": module["license"],
+        "copyrightText": "NOASSERTION",
+        "externalRefs": [{"referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl",
+                          "referenceLocator": f"pkg:npm/{name.replace('@', '%40')}@{module['version']}"}],
+    }
+
+
+def modules_of(lock):
+    """What goes into the page: not what only makes it."""
+    packages = json.loads(pathlib.Path(lock).read_text())["packages"]
+    return [describe_module(path, module) for path, module in packages.items() if path and not module.get("dev")]
+
+
 def reference(vendor, name, version, architecture):
     """A package URL, as scanners for known weaknesses look it up."""
     version = version.replace("+", "%2B").replace(":", "%3A")
@@ -133,6 +159,9 @@ def bill(arguments):
         for described in sorted((describe(name) for name in names), key=lambda one: one["name"]):
             packages.append(described)
             relations.append(("SPDXRef-Package", kind, described))
+    for described in modules_of(arguments.page) if arguments.page else []:
+        packages.append(described)
+        relations.append(("SPDXRef-Package", "CONTAINS", described))
     return {
         "spdxVersion": "SPDX-2.3",
         "dataLicense": "CC0-1.0",
@@ -152,6 +181,7 @@ def main():
     parser = argparse.ArgumentParser()
     for option in ("name", "version", "program", "build", "output"):
         parser.add_argument("--" + option, required=True)
+    parser.add_argument("--page")
     arguments = parser.parse_args()
     pathlib.Path(arguments.output).write_text(json.dumps(bill(arguments), indent=1) + "\n")
 

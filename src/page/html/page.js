@@ -1,5 +1,8 @@
 // Puts the parts of the page together: which run and which event are shown, keys, files and paper.
 
+/** Whether a key does nothing by itself: those who speak to their computer can turn letters off. */
+const isCharacterOff = (key) => key.length === 1 && !byId('takes-characters').checked;
+
 class Page {
   /** `properties`: of a page of properties; null on one of missions. `hasAddress`: whether the address of the
    * page says what is shown. */
@@ -100,6 +103,7 @@ class Page {
     if (event.key === 'Escape') this.hover(null, null);
     const { target } = event;
     if (target.closest?.('input:not([type=checkbox]), select, .cm-editor')) return; // they have keys of their own
+    if (isCharacterOff(event.key)) return;
     const isInTable = this.table.contains(target);
     const actions = {
       ArrowLeft: () => this.choose(this.number - 1),

@@ -10,6 +10,7 @@ import { createRequire } from 'node:module';
 import path from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { listExamples } from './examples.mjs';
+import { listLicenses } from './licenses.mjs';
 
 const [root, program, modules, output] = process.argv.slice(2).map((folder) => path.resolve(folder));
 const esbuild = createRequire(path.join(modules, 'package.json'))('esbuild');
@@ -23,7 +24,7 @@ const ownScripts = ['engine.js', 'session.js', 'robot.js', 'clock.js', 'prove.js
 const between = (text, begin, end) => text.slice(text.indexOf(begin), text.indexOf(end) + end.length);
 
 const bundled = await esbuild.build({
-  entryPoints: [path.join(root, 'src/page/play/editor.js')], bundle: true, minify: true, format: 'iife', write: false,
+  entryPoints: [path.join(root, 'src/page/play/editor.js')], bundle: true, minify: true, format: 'iife', write: false, metafile: true,
   globalName: 'editorBundle', nodePaths: [path.join(modules, 'node_modules')], charset: 'utf8', legalComments: 'none',
 });
 const minified = (text) => esbuild.transformSync(text, { minifyWhitespace: true, minifySyntax: true, charset: 'utf8' }).code;
@@ -36,6 +37,7 @@ const script = [
 const worker = minified([source('wasm', 'cbc.js'), source('page', 'play', 'worker.js')].join('\n'));
 const workerScript = `${readFileSync(path.join(program, 'play.js'), 'utf8')}\n${worker}`.replaceAll('</script', '<\\/script');
 const wasm = readFileSync(path.join(program, 'play.wasm'));
+const licenses = listLicenses(bundled.metafile.inputs, modules);
 
 const style = [...listOf('styles').map((name) => source('page', 'html', name)), source('page', 'play', 'play.css')].join('\n');
 const hash = (text) => `'sha256-${createHash('sha256').update(text).digest('base64')}'`;
@@ -76,6 +78,7 @@ const write = (name, content) => writeFileSync(path.join(output, name), content)
 write('play.wasm', wasm);
 write('worker.js', workerScript);
 write('play.js', script);
+write('licenses.txt', licenses);
 write('index.html', pageOf({
   scriptTag: '<script src="play.js"></script>', scriptSource: "'self'", connect: "'self'", workers: "'self'", parts: '',
 }));
@@ -84,9 +87,10 @@ write('cbc-play.html', pageOf({
   // A worker that is made of a text has the rules of its page.
   scriptTag: `<script>${script}</script>`, scriptSource: `${hash(script)} blob:`, connect: "'none'", workers: 'blob:',
   parts: `<script type="text/plain" id="worker-script">${workerScript}</script>\n` +
-    `<script type="text/plain" id="program">${packed.toString('base64')}</script>\n`,
+    `<script type="text/plain" id="program">${packed.toString('base64')}</script>\n` +
+    `<script type="text/plain" id="licenses">${licenses.replaceAll('<', '&lt;')}</script>\n`,
 }));
-const sizes = [wasm, script, workerScript, style].map((part) => gzipSync(part, { level: 9 }).length);
+const sizes = [wasm, script, workerScript, style, licenses].map((part) => gzipSync(part, { level: 9 }).length);
 const sum = sizes.reduce((all, size) => all + size, 0);
 console.log(`${output}: ${(sum / 1e6).toFixed(2)} MB compressed ` +
             `(program ${(sizes[0] / 1e6).toFixed(2)}, page ${((sum - sizes[0]) / 1e6).toFixed(2)})`);

@@ -22,6 +22,9 @@ class Ended extends Error {}
 /** The program itself has failed, which knows of nothing from then on. */
 class Failed extends Error {}
 
+/** Whether the program is lost. */
+const isEnd = (error) => error instanceof Ended || error instanceof Failed;
+
 class Engine {
   constructor() {
     this.waiting = new Map(); // of each question: how to answer it
@@ -45,20 +48,21 @@ class Engine {
     this.worker.postMessage({ program });
   }
 
-  take({ id, answer, error }) {
-    const { resolve, reject } = this.waiting.get(id);
+  take({ id, progress, answer, error }) {
+    const { resolve, reject, onProgress } = this.waiting.get(id);
+    if (progress !== undefined) return onProgress(progress);
     this.waiting.delete(id);
-    if (error === undefined) resolve(answer);
-    else reject(new Failed(`the program has failed: ${error}`));
+    if (error === undefined) return resolve(answer);
+    return reject(new Failed(`the program has failed: ${error}`));
   }
 
-  send(message) {
+  send(message, onProgress) {
     if (this.worker === null) {
       return Promise.reject(new Failed('this page needs a web server: open cbc-play.html beside it, which needs none'));
     }
     return new Promise((resolve, reject) => {
       const id = ++this.count;
-      this.waiting.set(id, { resolve, reject });
+      this.waiting.set(id, { resolve, reject, onProgress });
       this.worker.postMessage({ id, ...message });
     });
   }
@@ -70,9 +74,9 @@ class Engine {
     return answer;
   }
 
-  /** A command line: {status, stdout, stderr, files}, all as texts. */
-  run(words, files) {
-    return this.send({ words, files });
+  /** A command line: {status, stdout, stderr, files}, all as texts. `onProgress(line)`: what is being done. */
+  run(words, files, onProgress) {
+    return this.send({ words, files }, onProgress);
   }
 
   get isBusy() {

@@ -3,11 +3,12 @@
 /** The button in a pane that saves its text, and what is asked if the file has changed meanwhile. */
 class FileSaver {
   /** `role`: 'catalog', 'mission' or 'properties'. `load(text)` takes the text of the file. */
-  constructor(role, editor, { load, onNote }) {
+  constructor(role, editor, { load, onNote, onSaved }) {
     this.role = role;
     this.editor = editor;
     this.load = load;
     this.onNote = onNote;
+    this.onSaved = onSaved;
     this.row = byId(`file-${role}`);
   }
 
@@ -31,8 +32,9 @@ class FileSaver {
       const answer = await this.put(this.editor.text.replaceAll('\n', this.lineEnd));
       if (this.file !== file) return; // another session was opened
       file.version = answer.version;
-      if (answer.text === undefined) this.onNote(`${file.name} is saved.`, false);
-      else return this.showConflict(answer.text);
+      if (answer.text !== undefined) return this.showConflict(answer.text);
+      this.onSaved();
+      this.onNote(`${file.name} is saved.`, false);
     } catch (error) {
       if (this.file !== file) return;
       this.onNote(`${file.name} was not saved: ${error.message}`, true);

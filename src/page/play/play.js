@@ -15,17 +15,27 @@ class Play {
     });
     this.robot = new Robot({ onAsk: (entry) => this.ask(entry), onPreview: (entry) => this.preview(entry),
                              onWhy: (task) => this.explain(task).catch((error) => this.note(error.message, true)) });
-    this.catalog = new TextEditor(byId('text-catalog'), 'Catalog', debounced((text) => this.openCatalog(text)));
-    this.mission = new TextEditor(byId('text-mission'), 'Mission', debounced((text) => this.loadMission(text)));
-    this.properties = new TextEditor(byId('text-properties'), 'Properties', () => {});
+    this.unsaved = new Set(); // texts that somebody has edited
+    const editorOf = (role, label, use) => {
+      const useSoon = debounced(use);
+      return new TextEditor(byId(`text-${role}`), label, (text) => {
+        this.unsaved.add(role);
+        useSoon(text);
+      });
+    };
+    this.catalog = editorOf('catalog', 'Catalog', (text) => this.openCatalog(text));
+    this.mission = editorOf('mission', 'Mission', (text) => this.loadMission(text));
+    this.properties = editorOf('properties', 'Properties', () => {});
     this.prover = new Prover(
       { begin: byId('prove'), end: byId('prove-end'), limit: byId('prove-limit'), progress: byId('prove-progress'), list: byId('proofs') },
       { texts: () => ({ catalog: this.catalog.text, properties: this.properties.text }), onScript: (text) => this.openMission(text) });
-    const onNote = (text, isBad) => this.note(text, isBad);
+    const saverOf = (role, load) => new FileSaver(role, this[role], {
+      load, onNote: (text, isBad) => this.note(text, isBad), onSaved: () => this.unsaved.delete(role),
+    });
     this.savers = {
-      catalog: new FileSaver('catalog', this.catalog, { onNote, load: (text) => this.openCatalog(text) }),
-      mission: new FileSaver('mission', this.mission, { onNote, load: (text) => this.loadMission(text) }),
-      properties: new FileSaver('properties', this.properties, { onNote, load: () => {} }),
+      catalog: saverOf('catalog', (text) => this.openCatalog(text)),
+      mission: saverOf('mission', (text) => this.loadMission(text)),
+      properties: saverOf('properties', () => {}),
     };
     this.clock = new Clock(this.simulation, this.engine, (time) => this.showTime(time));
     this.setUpBar();
@@ -34,6 +44,9 @@ class Play {
     this.watchWork();
     document.addEventListener('keydown', (event) => this.onKey(event));
     addEventListener('hashchange', () => this.start());
+    addEventListener('beforeunload', (event) => {
+      if (this.unsaved.size > 0) event.preventDefault();
+    });
   }
 
   // Texts -----------------------------------------------------------------------------------------
@@ -47,7 +60,7 @@ class Play {
     try {
       const saved = JSON.parse(partOf('saved-session'));
       if (shared !== null) return await this.openSession({ ...(await unpackSession(shared)), files: {} });
-      if (saved !== null) return await this.openSession(checkSession(saved));
+      if (saved !== null) return await this.openSession(checkSession(saved, 'this page'));
       if (address.has('example')) {
         return await this.openExample(address.get('example'), Number.parseInt(address.get('event') ?? '', 10));
       }
@@ -76,6 +89,7 @@ class Play {
     this.clock.halt();
     this.prover.stop();
     this.hasDraft = false;
+    this.unsaved.clear();
     this.note('', false);
     this.simulation.catalogName = name;
     this.catalog.text = catalog;
@@ -85,6 +99,12 @@ class Play {
     for (const [role, text] of Object.entries({ catalog, mission, properties })) this.savers[role].open(files[role], text);
     await this.simulation.open(catalog, mission);
     if (index !== undefined && this.simulation.isOpen) await this.simulation.goTo(index);
+  }
+
+  /** Whether another session may take the place of texts that were edited. */
+  mayReplace() {
+    return this.unsaved.size === 0 ||
+      confirm(`What you have edited is not saved: ${[...this.unsaved].join(', ')}. Open something else all the same?`);
   }
 
   openCatalog(text) {
@@ -151,9 +171,8 @@ class Play {
       shown = this.previewed;
       const found = await this.simulation.whatIf(shown);
       if (this.previewed !== shown || found === undefined) continue;
-      const { move, error } = found;
-      byId('preview').textContent = error ?? describeMove(move);
-      byId('preview').className = error !== undefined || move.outcome === 'rejected' ? 'bad' : '';
+      byId('preview').textContent = found.error ?? describeMove(found);
+      byId('preview').className = found.error !== undefined || found.outcome === 'rejected' ? 'bad' : '';
     }
     this.isPreviewing = false;
   }
@@ -213,19 +232,27 @@ class Play {
       list.append(Object.assign(document.createElement('option'), { value: id, textContent: title }));
     }
     list.addEventListener('change', () => {
-      if (list.value !== '') this.openExample(list.value);
+      if (list.value !== '' && this.mayReplace()) this.openExample(list.value);
       list.value = '';
     });
+    byId('help').querySelector('dl').prepend(...[
+      ['Ctrl+Z', 'undo'], ['Ctrl+Y', 'redo'], ['t', 'one second on'], ['d', 'to what is due next'], ['r', 'let the clock run, or pause it'],
+    ].flatMap(([key, meaning]) => [html('dt', '', html('kbd', '', key)), html('dd', '', meaning)]));
     on('undo', () => this.undo());
     on('redo', () => this.redo());
     on('restart', () => this.restart());
     on('end-work', () => this.endWork());
-    on('copy-link', async () => this.copy(await this.link(), 'The link is copied'));
+    on('copy-link', async () => {
+      const link = await this.link();
+      this.unsaved.clear();
+      return this.copy(link, `The link is copied.${doubtOf(link)}`);
+    });
     on('copy-frame', async () => {
       const address = (await this.link()).replace('#', '?embed#').replaceAll('&', '&amp;');
-      return this.copy(`<iframe src="${address}" width="100%" height="720" title="cbc play"></iframe>`, 'The HTML is copied');
+      return this.copy(`<iframe src="${address}" width="100%" height="720" title="cbc play"></iframe>`, `The HTML is copied.${doubtOf(address)}`);
     });
     on('save-page', async () => {
+      this.unsaved.clear();
       saveFile(await pageWith(await this.sessionNow()), `${this.simulation.catalogName.replace(/\.\w+$/, '')}.html`, 'text/html');
     });
   }
@@ -244,7 +271,7 @@ class Play {
   async copy(text, done) {
     try {
       await navigator.clipboard.writeText(text);
-      this.note(`${done}.`, false);
+      this.note(done, false);
     } catch {
       // A page from the disk may not write there.
       const area = html('textarea', '', text);
@@ -252,7 +279,7 @@ class Play {
       area.select();
       const isCopied = document.execCommand('copy');
       area.remove();
-      this.note(isCopied ? `${done}.` : 'The browser does not let this page copy.', !isCopied);
+      this.note(isCopied ? done : 'The browser does not let this page copy.', !isCopied);
     }
   }
 
@@ -307,10 +334,13 @@ class Play {
         if (chosen !== undefined) await open(await chosen.text(), chosen.name);
         file.value = '';
       });
-      byId(`copy-${what}`).addEventListener('click', async () => this.copy(await textOf(), `The ${what} is copied`));
-      byId(`save-${what}`).addEventListener('click', async () => saveFile(await textOf(), nameOf()));
+      byId(`copy-${what}`).addEventListener('click', async () => this.copy(await textOf(), `The ${what} is copied.`));
+      byId(`save-${what}`).addEventListener('click', async () => {
+        this.unsaved.delete(what);
+        saveFile(await textOf(), nameOf());
+      });
     };
-    setUp('catalog', (catalog, name) => this.openSession({ catalog, name }),
+    setUp('catalog', (catalog, name) => (this.mayReplace() ? this.openSession({ catalog, name }) : undefined),
       () => this.catalog.text, () => this.simulation.catalogName);
     setUp('mission', (text) => this.openMission(text),
       () => this.missionText(), () => `${this.simulation.catalogName.replace(/\.\w+$/, '')}.mission.yaml`);
@@ -340,7 +370,9 @@ class Play {
     this.engine.end();
     await this.simulation.work;
     await this.simulation.recover();
-    this.note('Stopped.', true);
+    const isEarlier = this.simulation.catalogText !== this.catalog.text;
+    if (isEarlier) this.showFindings('catalog', []); // they are about the other text
+    this.note(isEarlier ? 'Stopped. The robot is the last one that was ready.' : 'Stopped.', true);
   }
 
   note(text, isBad) {
@@ -357,7 +389,7 @@ class Play {
       (key === 'z' ? this.undo() : this.redo());
       return;
     }
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || isCharacterOff(key)) return;
     const buttons = { t: 'step', d: 'to-next', r: 'run' };
     if (Object.hasOwn(buttons, key)) byId(buttons[key]).click();
   }

@@ -43,12 +43,13 @@ class Prover {
   show(limit) {
     const started = performance.now();
     this.engine = new Engine();
+    this.done = 'exploring states';
     this.begin.disabled = true;
     for (const element of [this.end, this.progress]) element.hidden = false;
     const tick = () => {
       const seconds = (performance.now() - started) / 1000;
       this.progress.value = Math.min(1, seconds / limit);
-      this.list.replaceChildren(html('p', 'hint', `exploring states: ${seconds.toFixed(0)} s of at most ${limit} s`));
+      this.list.replaceChildren(html('p', 'hint', `${this.done}: ${seconds.toFixed(0)} s of at most ${limit} s`));
     };
     tick();
     this.timer = setInterval(tick, 250);
@@ -56,14 +57,16 @@ class Prover {
 
   run(catalog, properties, limit) {
     const limits = ['--time-limit', `${limit}`, '--max-memory', '1G'];
-    if (properties.trim() === '') return this.engine.run(['verify', 'robot.yaml', ...limits], { 'robot.yaml': catalog });
+    const verify = (words, files) => this.engine.run(['verify', ...words, ...limits], files, (line) => {
+      if (line !== '') this.done = line;
+    });
+    if (properties.trim() === '') return verify(['robot.yaml'], { 'robot.yaml': catalog });
     // A property file may name its catalog, as whatever it is called where it comes from.
     const found = /^catalog:[ \t]*(["']?)([^"'#\n]+?)\1[ \t]*(#.*)?$/m.exec(properties)?.[2].replace(/^.*\//, '');
     const named = found === 'robot.properties.yaml' ? 'robot.yaml' : found;
     const own = properties.replace(/^catalog:.*$/m, `catalog: ${JSON.stringify(named ?? '')}`);
-    return this.engine.run(
-      ['verify', ...(named === undefined ? ['robot.yaml'] : []), 'robot.properties.yaml', '--format', 'json',
-       '--scripts', 'scripts', ...limits],
+    return verify(
+      [...(named === undefined ? ['robot.yaml'] : []), 'robot.properties.yaml', '--format', 'json', '--scripts', 'scripts'],
       { [named ?? 'robot.yaml']: catalog, 'robot.properties.yaml': named === undefined ? properties : own });
   }
 

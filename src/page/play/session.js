@@ -37,7 +37,7 @@ class Simulation {
 
   fail(error) {
     this.view.onNote(error.message, true);
-    if (error instanceof Ended || error instanceof Failed) this.isOpen = false;
+    if (isEnd(error)) this.isOpen = false;
   }
 
   /** Another session. */
@@ -72,8 +72,7 @@ class Simulation {
     }
     this.catalogText = text;
     this.catalog = new Catalog(answer.catalog);
-    const { moves } = (await this.engine.ask({ do: 'what_if' })).report;
-    this.view.onCatalog(this.catalog, new Set(moves.filter((move) => move.verb === 'start').map((move) => move.name)));
+    this.view.onCatalog(this.catalog, new Set(answer.requestable));
     this.isOpen = true;
     await this.repeat(answer.begin);
   }
@@ -106,7 +105,7 @@ class Simulation {
         news.events.push(...last.events);
         news.failures.push(...last.failures);
       } catch (error) {
-        if (error instanceof Ended || error instanceof Failed) throw error;
+        if (isEnd(error)) throw error;
         note = `What you did does not fit this robot from step ${count + 1} on: ${error.message}`;
         this.lost = { count, place };
       }
@@ -201,13 +200,18 @@ class Simulation {
     this.view.onText();
   }
 
-  /** What an entry would do: a move of cbc.what-if/1, or an error; undefined if the program was lost meanwhile. */
+  /** What an entry would do: a move of cbc.what-if/1, or {error}; undefined if the program was lost meanwhile. */
   async whatIf(entry) {
     let found;
     await this.do(async () => {
       if (!this.isOpen) return;
-      const { report, errors } = await this.engine.ask({ do: 'what_if', events: [JSON.stringify(entry)] });
-      found = errors.length > 0 ? { error: errors[0] } : { move: report.moves[0] };
+      try {
+        const { report } = await this.engine.ask({ do: 'what_if', event: JSON.stringify(entry) });
+        [found] = report.moves;
+      } catch (error) {
+        if (isEnd(error)) throw error;
+        found = { error: error.message };
+      }
     });
     return found;
   }
@@ -278,10 +282,10 @@ class Simulation {
     return whole;
   }
 
-  async why(subject) {
+  async why(task) {
     let event = null;
     await this.do(async () => {
-      event = (await this.engine.ask({ do: 'why', subject, index: this.place.index })).event;
+      event = (await this.engine.ask({ do: 'why', task, index: this.place.index })).event;
     });
     return event;
   }

@@ -1,11 +1,21 @@
 // A session as text: in the address after "#", see packSession, and in a page that is saved.
 
 const mostUnpacked = 20 << 20; // bytes
+const longestLink = 30_000; // characters, more than which some programs do not pass on
+
+/** What somebody should know before sending a link; empty: nothing. */
+function doubtOf(link) {
+  if (link.length > longestLink) {
+    return ` It has ${quantity(link.length, 'character')}, more than some programs pass on: "save page" makes a file instead.`;
+  }
+  if (location.protocol === 'file:') return ' It works where this page has the same place on the disk: "save page" makes a file for others.';
+  return '';
+}
 
 /** Throws an Error that says what is wrong with the text. */
 async function unpackSession(text) {
   const [, version, packed] = /^(\d+)\.([\w-]*)$/.exec(text) ?? [];
-  if (version === undefined) throw new Error('this link is damaged: it has no session');
+  if (version === undefined) throw new Error('this link is damaged: a part of it may be missing');
   if (Number(version) > shareVersion) {
     throw new Error(`this link is of a newer version (${version}) of this page, which knows up to ${shareVersion}: open it where it came from`);
   }
@@ -17,7 +27,7 @@ async function unpackSession(text) {
   } catch (error) {
     throw new Error(error instanceof RangeError ? error.message : 'this link is damaged: a part of it may be missing');
   }
-  return checkSession(session);
+  return checkSession(session, 'this link');
 }
 
 async function readAtMost(stream, most) {
@@ -33,12 +43,13 @@ async function readAtMost(stream, most) {
   }
 }
 
-function checkSession(session) {
+/** `what` the session comes from. */
+function checkSession(session, what) {
   const isText = (value) => value === undefined || typeof value === 'string';
   const isRight = session !== null && typeof session === 'object' && typeof session.catalog === 'string' &&
     isText(session.mission) && isText(session.properties) && isText(session.name) &&
     (session.index === undefined || Number.isInteger(session.index));
-  if (!isRight) throw new Error('this link is damaged: it has no catalog');
+  if (!isRight) throw new Error(`${what} is damaged: it has no catalog`);
   return session;
 }
 

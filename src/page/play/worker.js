@@ -11,10 +11,11 @@ const bytesOf = ({ packed, address }) =>
 let program = null; // a promise of it
 let session = null;
 
-async function answerTo({ request, words, files }) {
+async function answerTo({ id, request, words, files }) {
   const cbc = await program;
   if (words === undefined) return (session ??= await cbc.openSession())(request);
-  const { status, stdout, stderr, files: written } = await cbc.run(words, files);
+  const { status, stdout, stderr, files: written } = await cbc.run(words, files,
+    { onProgress: (progress) => self.postMessage({ id, progress }) });
   const texts = Object.fromEntries(Object.entries(written).map(([name, bytes]) => [name, decoded(bytes)]));
   return { status, stdout: decoded(stdout), stderr: decoded(stderr), files: texts };
 }
