@@ -43,8 +43,8 @@ namespace cbc::play {
 ///            belongs to it. Or entry (how many are done)
 ///   what_if  event (an entry): `report`, as cbc.what-if/1 with this move
 ///   state    `report`, as cbc.what-if/1 without moves; `timeouts`, by task; `next_due`, or null
-///   why      task, index (of an event; absent: now): the `event` that decided about it, or null, as
-///            `cbc solve --why --format json` has it
+///   why      task, index (of an event; absent: now): the `event` that decided about it, or
+///            null, as `cbc solve --why --format json` has it
 ///   mission  `mission`: the session as a script, with expectations
 class Session {
  public:
