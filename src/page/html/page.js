@@ -273,8 +273,9 @@ class Page {
     }
     if (number === this.number) return;
     this.number = number;
-    this.table.choose(number);
     this.fillEvent();
+    // To scroll makes the browser lay out the page: once, after all texts are there.
+    this.table.choose(number);
     byId('detail').scrollTop = 0;
     this.timeline.choose(number);
   }

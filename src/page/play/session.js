@@ -262,10 +262,10 @@ class Simulation {
     this.place = { index, time, entry, entries };
     const state = await this.engine.ask({ do: 'state' });
     this.due = { timeouts: state.timeouts, next: state.next_due, now: time };
+    this.view.onState(); // first, as the page makes the browser lay it out
     this.isArriving = true;
     this.page.choose(Math.max(1, index), true);
     this.isArriving = false;
-    this.view.onState();
   }
 
   /** The mission with all that was done, as it was loaded if nothing was done since, and the index of the present
