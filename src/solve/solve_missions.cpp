@@ -127,7 +127,7 @@ void point_to_tuning(const std::vector<Mission>& missions, const SolveOptions& o
   const bool is_text = options.format == "text" && !options.stream.replay;
   if (!is_text || !have_one_catalog || source.text == nullptr) return;
   const std::string hint = fmt::format(
-      "which number of the catalog would have to be what: cbc tune {}",
+      "which number of the catalog would have to change: cbc tune {}",
       join(options.paths, " ", [](const std::string& path) {
         return path.find_first_of(" '\"$&()*;<>?[]\\`|~") == std::string::npos ? printable(path)
                                                                                : quote(path);

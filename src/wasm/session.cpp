@@ -23,7 +23,8 @@ namespace {
 using yaml::JsonFault;
 using yaml::JsonValue;
 
-constexpr double latest = 1e9;  // seconds
+constexpr double latest = 1e9;                       // seconds
+constexpr std::uint64_t most_clock_events = 20'000;  // of an entry: nobody looks at more of them
 
 Microseconds read_time(const JsonValue& value) {
   constexpr double microseconds = 1e6;
@@ -163,14 +164,21 @@ void Session::load(const JsonValue& request, JsonWriter& answer) {
   std::vector<Step> steps = std::exchange(script->steps, {});
   begin(std::move(*script));
   tell_present(answer);
-  for (Step& step : steps) take(std::move(step), false);
+  std::string obstacle;
+  try {
+    for (Step& step : steps) take(std::move(step), false);
+  } catch (const JsonFault& fault) {
+    obstacle = fault.what();
+  }
   tell_news(0, answer);
+  if (!obstacle.empty()) answer.write("stopped", obstacle);
 }
 
 CoordinatorOptions Session::options() const {
   CoordinatorOptions options = options_of(script_);
   options.explain.displaced = true;
   options.last_decisions = true;
+  options.max_clock_events = most_clock_events;
   return options;
 }
 
@@ -210,23 +218,26 @@ void Session::resume() {
   runner_.emplace(*catalog_, options(), *stream_);
   runner_->resume(present());
   explanation_.begin_stream(*catalog_);
-  new_events_.clear();
-  new_failures_.clear();
 }
 
-/// The earliest time of another entry. All that was due at an instant to which the clock was moved
-/// is done, so nothing else may happen at it: a script would do that before.
+/// The earliest time of another entry.
 Microseconds Session::next_time() const {
-  const bool is_clock = cut_ || (position_ > 0 && entries_[position_ - 1]->is_clock);
-  return present().now + (is_clock ? 1 : 0);
+  if (!cut_ && position_ == 0) return present().now;
+  return present().now + ((cut_ ? *cut_ : *entries_[position_ - 1]).is_settled ? 1 : 0);
 }
 
 void Session::run(Entry& entry) {
   runner_->restart_count();
-  if (!runner_->take(entry.step) || (entry.is_clock && !runner_->settle())) {
+  bool is_done = runner_->take(entry.step);
+  if (is_done && entry.is_clock) {
+    entry.is_settled = runner_->coordinator().next_due() == entry.step.time;
+    is_done = runner_->settle();
+  }
+  if (!is_done) {
     const bool is_fault = !runner_->result().internal_error.empty();
-    throw JsonFault(is_fault ? "internal error: " + runner_->result().internal_error
-                             : "the clock made too many events; move it in smaller steps");
+    throw JsonFault(is_fault
+                        ? "internal error: " + runner_->result().internal_error
+                        : "the clock makes too many events until then; move it in smaller steps");
   }
   entry.after = runner_->snapshot();
   entry.reached =
@@ -240,11 +251,15 @@ void Session::take(Step step, bool is_clock) {
   entry->step.time = std::max(entry->step.time.value_or(0), next_time());
   entry->is_clock = is_clock;
   const std::vector<Happened> events = events_;
+  const std::size_t told = new_events_.size();
+  const std::size_t failed = new_failures_.size();
   events_.resize(static_cast<std::size_t>(present().events));
   try {
     run(*entry);
   } catch (...) {
     events_ = events;
+    new_events_.resize(told);
+    new_failures_.resize(failed);
     resume();
     throw;
   }
@@ -276,6 +291,9 @@ void Session::tell_news(std::uint64_t first, JsonWriter& answer) {
   };
   write_all("events", new_events_);
   write_all("failures", new_failures_);
+  const auto expectations = std::count_if(
+      entries_.begin(), entries_.end(), [](const auto& entry) { return entry->is_expectation(); });
+  answer.write("expectations", static_cast<std::uint64_t>(expectations));
 }
 
 namespace {
@@ -338,7 +356,15 @@ void Session::go_to(const JsonValue& request, JsonWriter& answer) {
     const std::vector<Happened> events = events_;
     run(*part);
     events_ = events;
+    new_events_.clear();
+    new_failures_.clear();
     cut_ = part;
+  } else {
+    const auto belongs = [&](const Entry& other) {
+      return other.is_expectation() && other.after.events == index &&
+             other.after.now == present().now;
+    };
+    while (position_ < entries_.size() && belongs(*entries_[position_])) ++position_;
   }
   resume();
   tell_place(answer);
@@ -413,17 +439,14 @@ void Session::write_mission(JsonWriter& answer) const {
   auto done =
       std::vector(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(position_));
   if (cut_) done.push_back(cut_);
-  const auto is_expectation = [](const Entry& entry) {
-    return entry.step.expect && !entry.is_clock;
-  };
   for (std::size_t place = 0; place < done.size(); ++place) {
     const Entry& entry = *done[place];
     if (!entry.is_clock) mission.steps.push_back(entry.step);
     // What a mission that was loaded expects stands for itself.
-    const bool is_followed = place + 1 < done.size() && is_expectation(*done[place + 1]);
-    if (is_followed || is_expectation(entry)) continue;
+    const bool is_followed = place + 1 < done.size() && done[place + 1]->is_expectation();
+    if (is_followed || entry.is_expectation()) continue;
     Step expectation;
-    expectation.time = *entry.step.time + (entry.is_clock ? 1 : 0);
+    expectation.time = *entry.step.time + (entry.is_settled ? 1 : 0);
     expectation.expect = entry.reached;
     mission.steps.push_back(std::move(expectation));
   }

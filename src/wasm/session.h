@@ -32,15 +32,16 @@ namespace cbc::play {
 ///            begins: `catalog` and `begin`, as the page of --html gets them, and the tasks that
 ///            are `requestable`
 ///   load     mission (its text), name: begins anew with all its entries: `lint`, and unless there
-///            are errors `begin` and what an apply answers; if the clock runs away in it, what came
-///            before stays
+///            are errors `begin` and what an apply answers; `stopped` says why it goes no further,
+///            if the clock runs away in it
 ///   apply    event (an entry of a script): `index` and `time` after it, `entry` (how many entries
 ///            are done) of `entries`, `first` (the index of the first new event; later ones of
-///            before are gone), `events` and `failures` as the page gets them, `warnings`
+///            before are gone), `events` and `failures` as the page gets them, `expectations` (how
+///            many there are in all entries), `warnings`
 ///   advance  to (seconds; absent: when something falls due next): the same
 ///   goto     index (of an event; 0: before all): `index`, `time`, `entry` and `entries` where that
-///            is; what follows one event at once, and all that the clock does at its instant,
-///            belongs to it. Or entry (how many are done)
+///            is; what follows one event at once, all that the clock does at its instant, and what
+///            is expected then, belongs to it. Or entry (how many are done)
 ///   what_if  event (an entry): `report`, as cbc.what-if/1 with this move
 ///   state    `report`, as cbc.what-if/1 without moves; `timeouts`, by task; `next_due`, or null
 ///   why      task, index (of an event; absent: now): the `event` that decided about it, or
@@ -54,9 +55,12 @@ class Session {
   /// An event or an expectation, or the clock that moves on, and what came of it.
   struct Entry {
     Step step;
-    bool is_clock = false;  ///< all that is due at the time of the step is done, too
+    bool is_clock = false;    ///< all that is due at the time of the step is done, too
+    bool is_settled = false;  ///< something was due then, so no other entry may have that time
     Snapshot after;
     Expectation reached;
+
+    [[nodiscard]] bool is_expectation() const { return step.expect && !is_clock; }
   };
   struct Happened {
     Microseconds time = 0;

@@ -239,6 +239,53 @@ TEST(PlaySession, LoadsMissionsWithFailures) {
   EXPECT_EQ(page.state()["report"]["event"], page.events.size()) << "a bad mission changed it";
 }
 
+TEST(PlaySession, StopsWhereTheClockRunsAway) {
+  // Its tasks start, and time out, by themselves.
+  Page restless(test::read_file(fs::path(CBC_SOURCE_DIR) / "src/page/play/first.yaml"));
+  const Json loaded = restless.ask(
+      {{"do", "load"},
+       {"mission",
+        "events:\n- start: DRIVE\n- {at: 3, start: GREET}\n- {at: 999999999, start: CHARGE}\n"}});
+  ASSERT_TRUE(loaded.contains("stopped"));
+  EXPECT_EQ(loaded["entries"], 2);
+  EXPECT_EQ(loaded["events"].size(), 2U);
+  EXPECT_EQ(loaded["index"], 2);
+  const Json next = restless.ask({{"do", "apply"}, {"event", "stop: GREET"}});
+  EXPECT_EQ(next["first"], 3) << next;
+}
+
+TEST(PlaySession, GoesBackToBeforeAllEvents) {
+  Page page(test::read_file(catalogs / "quadrotor.yaml"));
+  page.apply("start: TAKE_OFF");
+  page.ask({{"do", "goto"}, {"index", 0}});
+  const std::string mission = page.ask({{"do", "mission"}})["mission"];
+  const Json loaded = page.ask({{"do", "load"}, {"mission", mission}});
+  EXPECT_EQ(loaded["lint"]["errors"], 0) << mission;
+  EXPECT_EQ(loaded["entries"], 0);
+}
+
+TEST(PlaySession, KeepsWhatIsExpectedOfAnEvent) {
+  Page page(test::read_file(catalogs / "quadrotor.yaml"));
+  const Json loaded = page.ask(
+      {{"do", "load"},
+       {"mission",
+        "events:\n- start: TAKE_OFF\n- expect: {stopped: [LAND]}\n- {at: 1, stop: TAKE_OFF}\n"}});
+  EXPECT_EQ(loaded["expectations"], 1);
+  page.ask({{"do", "goto"}, {"index", 1}});
+  page.apply("stop: TAKE_OFF");
+  const std::string mission = page.ask({{"do", "mission"}})["mission"];
+  EXPECT_NE(mission.find("stopped: [\"LAND\"]"), std::string::npos) << mission;
+}
+
+TEST(PlaySession, WritesTimesAsTheyWereAskedFor) {
+  Page page(test::read_file(catalogs / "quadrotor.yaml"));
+  for (const int to : {1, 2, 3}) page.ask({{"do", "advance"}, {"to", to}});
+  EXPECT_EQ(page.apply("start: TAKE_OFF")["time"], 3);
+  const std::string mission = page.ask({{"do", "mission"}})["mission"];
+  EXPECT_EQ(mission.find("000001"), std::string::npos) << mission;
+  page.run();
+}
+
 TEST(PlaySession, RefusesWhatIsWrong) {
   Session none;
   EXPECT_NE(none.answer(R"({"do":"state"})").find("expected an 'open' first"), std::string::npos);

@@ -19,7 +19,7 @@ wait("findings", function() return #vim.diagnostic.get(0) == 1 end)
 print(vim.diagnostic.get(0)[1].message)
 -- The name that is required, where it is defined.
 vim.fn.search("LOCALIZE")
-vim.lsp.buf.definition()
+vim.cmd("normal gd")
 wait("definition", function() return vim.fn.line(".") == 5 end)
 -- Another name, in all files.
 vim.lsp.buf.rename("FIND_PLACE")
@@ -31,6 +31,9 @@ vim.fn.cursor(3, 10)
 local client = vim.lsp.get_active_clients()[1]
 local found = client.request_sync("textDocument/completion", vim.lsp.util.make_position_params(), 1000 * {patience}, 0)
 for _, item in ipairs(found.result.items) do print(item.label) end
+assert(vim.bo.omnifunc == "v:lua.vim.lsp.omnifunc")
+vim.cmd("doautocmd TextChanged")
+wait("lenses", function() return #vim.lsp.codelens.get(0) > 0 end)
 vim.cmd("qall")
 """
 

@@ -124,7 +124,7 @@ class Robot(PlayCase):
         self.assertIn("DRIVE excludes CHARGE", self.text("#preview"))
         self.assertEqual(self.ask("play.simulation.page.run.size"), 1)  # nothing has happened
         self.press("start DRIVE")
-        self.assertIn("was rejected", self.text("#note"))
+        self.assertIn("Rejected: start DRIVE", self.text("#note"))
         self.assertIn("DRIVE excludes CHARGE", self.text("#detail-body"))
         self.press("why DRIVE runs or not")
         self.assertIn("CHARGE runs with priority 2", self.text("#why-body"))
@@ -284,6 +284,106 @@ class Texts(PlayCase):
         self.click("#redo")
         self.assertEqual(self.running(), {})
 
+    def test_the_beginning_of_a_mission_is_a_place_to_fork(self):
+        self.ask("play.openMission('events: [{start: DRIVE}, {at: 3, start: CHARGE}]').then(() => true)")
+        self.click("#restart")
+        self.assertEqual((self.running(), self.ask("play.simulation.page.run.size")), ({}, 2))
+        self.click("#redo")
+        self.assertIn("DRIVE", self.running())  # nothing is lost so far
+        self.click("#restart")
+        self.press("start GREET")
+        self.assertEqual(self.ask("play.simulation.page.run.size"), 1)
+        self.write_in("catalog", FIRST.replace("suitability: 95", "suitability: 94"))
+        self.wait("play.simulation.catalogText.includes('94')")
+        self.idle()
+        self.assertEqual((self.running(), self.text("#note")), ({"GREET": "WAVE_ARM"}, ""))
+
+    def test_another_session_begins_at_its_end(self):
+        self.press("start DRIVE")
+        self.press("start GREET")
+        self.click("#restart")
+        self.ask("play.openExample('hospital-lift').then(() => true)")
+        self.idle()
+        self.assertEqual(self.ask("play.simulation.place.index"), self.ask("play.simulation.page.run.size"))
+        self.ask("play.openSession({ catalog: 'behaviors: 1' }).then(() => true)")
+        self.idle()
+        self.assertIn("no robot yet", self.text("#note"))
+        self.press("start DELIVER")
+        self.assertIn("no robot yet", self.text("#note"))
+        self.write_in("catalog", FIRST)
+        self.wait("play.simulation.isOpen")
+        self.press("start DRIVE")
+        self.assertIn("DRIVE", self.running())
+
+    def test_restart_beside_a_catalog_with_errors(self):
+        self.press("start DRIVE")
+        self.write_in("catalog", FIRST + "tasks: [")
+        self.wait("play.simulation.isStale")
+        self.click("#restart")
+        self.assertEqual(self.running(), {})
+        self.press("start GREET")
+        self.write_in("catalog", FIRST + "# more\n")
+        self.wait("!play.simulation.isStale")
+        self.idle()
+        self.assertEqual(self.running(), {"GREET": "WAVE_ARM"})
+
+    def test_a_mission_in_which_the_clock_runs_away(self):
+        self.press("start GREET")
+        self.ask("play.openMission('events: [{start: DRIVE}, {at: 3, start: GREET}, {at: 999999999, start: CHARGE}]').then(() => true)")
+        self.idle()
+        self.assertIn("too many events", self.text("#note"))
+        self.assertEqual(self.ask("play.simulation.page.run.size"), 2)
+        self.press("stop GREET")
+        self.assertEqual(self.ask("play.simulation.page.run.size"), 3)
+        self.assertNotIn("GREET", self.running())
+
+    def test_what_does_not_fit_is_shared_all_the_same(self):
+        self.press("start DRIVE")
+        self.press("start GREET")
+        done = self.mission()
+        self.write_in("catalog", FIRST.replace("GREET", "GREE"))
+        self.wait("play.simulation.lost !== null")
+        self.idle()
+        self.assertEqual(self.mission(), done)
+        self.write_in("catalog", FIRST.replace("GREET", "GRE"))
+        self.wait("play.simulation.catalogText.includes('GRE,')")
+        self.idle()
+        self.assertEqual(self.mission(), done)
+
+    def test_an_event_of_the_clock_stays_the_present(self):
+        self.press("start DRIVE")
+        self.press("start GREET")
+        self.ask("play.simulation.advance(100).then(() => true)")
+        self.idle()
+        self.ask("play.simulation.goTo(4).then(() => true)")
+        self.idle()
+        before = self.ask("[play.simulation.place.index, play.simulation.place.time]")
+        self.write_in("catalog", FIRST + "# more\n")
+        self.wait("play.simulation.catalogText.endsWith('# more\\n')")
+        self.idle()
+        self.assertEqual(self.ask("[play.simulation.place.index, play.simulation.place.time]"), before)
+
+    def test_a_text_that_was_recorded_over_comes_back(self):
+        text = "# by hand\nevents:\n- start: DRIVE\n- {at: 3, start: GREET}\n"
+        self.ask(f"play.openMission({json.dumps(text)}).then(() => true)")
+        self.ask("play.simulation.goTo(1).then(() => true)")
+        self.press("fault of DRIVE_WITH_CAMERA")
+        self.wait("play.mission.text.includes('fault')")
+        self.ask("play.mission.view.focus()")
+        self.browser.key("z", modifiers=2)
+        self.wait(f"play.mission.text === {json.dumps(text)} && play.simulation.place.entries === 2")
+
+    def test_expectations_are_counted(self):
+        self.ask("play.openMission('events: [{start: DRIVE}, {expect: {running: {DRIVE: DRIVE_WITH_LIDAR}}},"
+                 " {start: GREET}, {expect: {running: {GREET: WAVE_ARM}}}, {expect: {outcome: accepted}}]').then(() => true)")
+        self.idle()
+        self.assertIn("expectations: 2 passed, 1 failed", self.text("#counts"))
+        self.ask("play.simulation.goTo(1).then(() => true)")
+        self.assertIn("robot.mission.yaml:1", self.text("#detail-body"))
+        self.assertIn("cbc tune robot.yaml robot.mission.yaml", self.text("#detail-body"))
+        self.press("stop DRIVE")  # in place of what came after it
+        self.assertIn("expectations: 0 passed, 1 failed", self.text("#counts"))
+
     def test_what_a_mission_expects_stays(self):
         mission = "# a comment\nevents:\n- start: DRIVE\n- expect: {running: {DRIVE: DRIVE_WITH_CAMERA}}\n"
         self.write_in("mission", mission)
@@ -358,11 +458,15 @@ class Texts(PlayCase):
         self.ask(choose)
         self.assertEqual(self.ask("play.catalog.text"), FIRST + "# more\n")
         self.assertIn("not saved: catalog.", self.ask("asked[0]"))
+        self.ask("location.hash = '#example=hospital'; new Promise((resolve) => setTimeout(() => resolve(true), 300))")
+        self.assertEqual((self.ask("play.catalog.text"), self.ask("asked.length")), (FIRST + "# more\n", 2))
+        self.assertFalse(self.ask("byId('edited-catalog').hidden"))
         self.click("#copy-link")
         self.assertFalse(self.ask(is_asked))
+        self.assertTrue(self.ask("byId('edited-catalog').hidden"))
         self.ask(choose)
-        self.wait("play.simulation.catalogName === 'hospital.yaml'")
-        self.assertEqual(self.ask("asked.length"), 1)
+        self.wait("play.simulation.names.catalog === 'hospital.yaml'")
+        self.assertEqual(self.ask("asked.length"), 2)
 
     def test_a_page_that_is_saved(self):
         self.press("start DRIVE")
@@ -415,6 +519,11 @@ class Proofs(PlayCase):
         self.wait("!byId('prove').disabled")
         self.assertIn("runing", self.text("#proofs"))
 
+    def test_a_catalog_that_is_no_file(self):
+        self.prove("catalog: ..\nproperties:\n- {name: greets, always: {any: [{stopped: [GREET]}, {running: [GREET]}]}}\n")
+        self.wait("!byId('prove').disabled")
+        self.assertNotIn("failed", self.text("#proofs"))
+
     def test_facts_without_properties(self):
         self.prove("")
         self.wait("!byId('prove').disabled")
@@ -462,7 +571,7 @@ class Continued(Installed):
         events = self.ask("page.run.events.length")
         self.go_on()
         self.assertEqual(self.ask("[play.simulation.place.index, play.simulation.page.run.size]"), [1, events])
-        self.assertEqual(self.ask("[play.catalog.text, play.simulation.catalogName]"), [FIRST, "robot.yaml"])
+        self.assertEqual(self.ask("[play.catalog.text, play.simulation.names.catalog]"), [FIRST, "robot.yaml"])
         self.assertEqual(self.running()["DRIVE"], "DRIVE_WITH_CAMERA")
         self.assertEqual(self.ask("play.simulation.page.run.failures.size"), 0)
         self.press("stop DRIVE")
@@ -551,7 +660,7 @@ class Files(Installed):
         mine = FIRST + "# on the page\n"
         self.write_in("catalog", mine)
         self.assertEqual(self.save("catalog"), "robot.yaml was not saved.")
-        self.assertIn("robot.yaml has another text by now", self.text("#file-catalog"))
+        self.assertIn("robot.yaml was changed by another program", self.text("#file-catalog"))
         self.assertEqual(self.files["robot.yaml"].read_text(), other)
         self.click("#file-catalog button:nth-of-type(2)")
         self.assertEqual(self.ask("play.catalog.text"), other)
@@ -566,6 +675,7 @@ class Files(Installed):
 
     def test_other_sessions_are_no_files(self):
         link = self.ask("play.link()")
+        self.assertIn("only on this machine", self.ask("doubtOf('')"))
         self.ask("play.openExample('hospital').then(() => true)")
         self.idle()
         self.assertTrue(self.ask("byId('file-catalog').hidden && byId('file-mission').hidden"))

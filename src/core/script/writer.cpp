@@ -106,7 +106,7 @@ std::string write_script(const CompiledCatalog& catalog, const Script& script,
   if (!script.situation.is_empty()) {
     text += fmt::format("situation: {}\n", situation_map(catalog, script.situation));
   }
-  text += "events:\n";
+  text += script.steps.empty() ? "events: []\n" : "events:\n";
   Microseconds time = 0;
   for (std::size_t place = 0; place < script.steps.size(); ++place) {
     const Step& step = script.steps[place];

@@ -24,7 +24,7 @@ function failureElement(run, failure) {
   const place = `${run.data.script}:${failure.line}`;
   const line = html('p', 'alarm', `failed expectation: ${failure.message} (${place})`);
   const command = `cbc tune ${run.data.catalog} ${run.data.script}`;
-  line.append(html('span', 'why', breakable(` \u2013 which number of the catalog would have to be what: ${command}`)));
+  line.append(html('span', 'why', breakable(` \u2013 which number of the catalog would have to change: ${command}`)));
   return line;
 }
 

@@ -267,6 +267,7 @@ class Page {
     }
     if (run.size === 0) {
       this.tell('No events.');
+      byId('detail-title').textContent = 'Event';
       for (const id of ['detail-body', 'state-body']) byId(id).replaceChildren();
       this.graph.show(run, 0);
       return;

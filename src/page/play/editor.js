@@ -1,10 +1,11 @@
 // The bundle of CodeMirror: a text with line numbers, YAML in color, and findings. Becomes the global TextEditor.
 
+import { isolateHistory } from '@codemirror/commands';
 import { basicSetup } from 'codemirror';
 import { yaml } from '@codemirror/lang-yaml';
 import { HighlightStyle, syntaxHighlighting } from '@codemirror/language';
 import { lintGutter, setDiagnostics } from '@codemirror/lint';
-import { EditorState } from '@codemirror/state';
+import { Annotation, EditorState } from '@codemirror/state';
 import { EditorView, keymap } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
 
@@ -25,6 +26,19 @@ const theme = EditorView.theme({
     { backgroundColor: 'color-mix(in srgb, var(--accent) 28%, transparent) !important' },
 });
 
+/** Of a change that the page makes. */
+const byPage = Annotation.define();
+
+/** What differs between two texts, without what they begin and end with. */
+function changeBetween(from, to) {
+  const least = Math.min(from.length, to.length);
+  let begin = 0;
+  while (begin < least && from[begin] === to[begin]) ++begin;
+  let end = 0;
+  while (end < least - begin && from[from.length - 1 - end] === to[to.length - 1 - end]) ++end;
+  return { from: begin, to: from.length - end, insert: to.slice(begin, to.length - end) };
+}
+
 export class TextEditor {
   /** `onChange(text)`: after somebody has typed. */
   constructor(parent, label, onChange) {
@@ -41,7 +55,8 @@ export class TextEditor {
       // Tab does not write, so it goes on to the next control; Escape leaves, too.
       keymap.of([{ key: 'Escape', run: (view) => { view.contentDOM.blur(); return true; } }]),
       EditorView.updateListener.of((update) => {
-        if (update.docChanged) this.onChange(this.text);
+        const isByPage = update.transactions.every((transaction) => transaction.annotation(byPage));
+        if (update.docChanged && !isByPage) this.onChange(this.text);
       }),
     ] });
   }
@@ -58,6 +73,12 @@ export class TextEditor {
   set text(text) {
     if (text === this.text) return;
     this.view.setState(this.newState(this.label, text)); // there is nothing to undo
+  }
+
+  /** The same, but the text from before comes back by "undo" of the editor. */
+  write(text) {
+    if (text === this.text) return;
+    this.view.dispatch({ changes: changeBetween(this.text, text), annotations: [byPage.of(true), isolateHistory.of('full')] });
   }
 
   /** Findings as in cbc.lint/1. */

@@ -60,7 +60,7 @@ class FileSaver {
   /** `text`: null if the file cannot be read any more. */
   showConflict(text) {
     this.onNote(`${this.file.name} was not saved.`, true);
-    const what = text === null ? 'cannot be read any more' : 'has another text by now';
+    const what = text === null ? 'cannot be read any more' : 'was changed by another program';
     const buttons = [buttonElement('save all the same', () => this.save())];
     if (text !== null) {
       buttons.push(buttonElement('load the other text', () => {

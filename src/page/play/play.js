@@ -1,13 +1,16 @@
 // Puts the parts of the simulator together: texts on the left, the robot, and the picture below.
 
 const pauseOfTyping = 300; // milliseconds
+const roles = ['catalog', 'mission', 'properties']; // of the texts
+
+const fileName = (path) => path.replace(/^.*\//, '');
 const slowAnswer = 1000; // milliseconds, after which the work can be ended
 
 class Play {
   constructor() {
     this.engine = new Engine();
     this.simulation = new Simulation(this.engine, {
-      onState: () => this.showState(), onText: () => this.recordSoon(),
+      onState: () => this.showState(), onText: () => this.onWork(),
       onNote: (text, isBad) => this.note(text, isBad),
       onFindings: (kind, findings) => this.showFindings(kind, findings),
       onCatalog: (catalog, requestable) => this.robot.build(catalog, requestable),
@@ -19,7 +22,7 @@ class Play {
     const editorOf = (role, label, use) => {
       const useSoon = debounced(use);
       return new TextEditor(byId(`text-${role}`), label, (text) => {
-        this.unsaved.add(role);
+        this.markEdited(role);
         useSoon(text);
       });
     };
@@ -30,7 +33,7 @@ class Play {
       { begin: byId('prove'), end: byId('prove-end'), limit: byId('prove-limit'), progress: byId('prove-progress'), list: byId('proofs') },
       { texts: () => ({ catalog: this.catalog.text, properties: this.properties.text }), onScript: (text) => this.openMission(text) });
     const saverOf = (role, load) => new FileSaver(role, this[role], {
-      load, onNote: (text, isBad) => this.note(text, isBad), onSaved: () => this.unsaved.delete(role),
+      load, onNote: (text, isBad) => this.note(text, isBad), onSaved: () => this.markSaved(role),
     });
     this.savers = {
       catalog: saverOf('catalog', (text) => this.openCatalog(text)),
@@ -43,7 +46,7 @@ class Play {
     this.setUpFiles();
     this.watchWork();
     document.addEventListener('keydown', (event) => this.onKey(event));
-    addEventListener('hashchange', () => this.start());
+    addEventListener('hashchange', () => (this.mayReplace() ? this.start() : undefined));
     addEventListener('beforeunload', (event) => {
       if (this.unsaved.size > 0) event.preventDefault();
     });
@@ -80,18 +83,22 @@ class Play {
     const { texts } = examples;
     const textOf = (name) => (name === undefined ? '' : texts[name]);
     await this.openSession({ catalog: texts[found.catalog], name: found.catalog, mission: textOf(found.mission),
-                             properties: textOf(found.properties), index: Number.isNaN(index) ? undefined : index });
+                             missionName: found.mission, properties: textOf(found.properties),
+                             index: Number.isNaN(index) ? undefined : index });
   }
 
   /** `files`: where its texts come from, if that is known. */
-  async openSession({ catalog, mission = '', properties = '', name = 'robot.yaml', index, files = {} }) {
+  async openSession({ catalog, mission = '', properties = '', name = 'robot.yaml', missionName, index, files = {} }) {
     byId('welcome').hidden = true;
     this.clock.halt();
     this.prover.stop();
     this.hasDraft = false;
-    this.unsaved.clear();
+    this.markSaved();
     this.note('', false);
-    this.simulation.catalogName = name;
+    this.simulation.names = {
+      catalog: files.catalog?.name ?? name,
+      mission: files.mission?.name ?? missionName ?? name.replace(/\.\w+$/, '.mission.yaml'),
+    };
     this.catalog.text = catalog;
     this.properties.text = properties;
     this.mission.text = mission;
@@ -112,7 +119,10 @@ class Play {
     return this.simulation.change(text);
   }
 
-  openMission(text) {
+  openMission(text, name = this.simulation.names.mission) {
+    if (this.unsaved.has('mission') && !this.mayReplace()) return undefined;
+    this.markSaved('mission');
+    this.simulation.names.mission = name;
     this.mission.text = text;
     this.chooseTab('mission');
     return this.loadMission(text);
@@ -121,6 +131,29 @@ class Play {
   async loadMission(text) {
     this.clock.halt();
     this.hasDraft = !await this.simulation.load(text);
+    if (this.simulation.isOpen) this.showState();
+  }
+
+  markEdited(role) {
+    this.unsaved.add(role);
+    this.showEdited();
+  }
+
+  /** `role`: undefined for all of them. */
+  markSaved(role) {
+    if (role === undefined) this.unsaved.clear();
+    else this.unsaved.delete(role);
+    this.showEdited();
+  }
+
+  showEdited() {
+    for (const role of roles) byId(`edited-${role}`).hidden = !this.unsaved.has(role);
+  }
+
+  /** What was done has changed. */
+  onWork() {
+    if (this.savers.mission.file !== undefined) this.markEdited('mission');
+    this.recordSoon();
   }
 
   /** What was done, as a mission; the text is only written while it is in view, and nobody writes there. */
@@ -133,7 +166,7 @@ class Play {
     const isWanted = () => !byId('pane-mission').hidden && !this.mission.hasFocus && !this.hasDraft;
     if (!isWanted() || this.simulation.lost !== null) return;
     const { mission } = await this.simulation.whole();
-    if (isWanted()) this.mission.text = mission;
+    if (isWanted()) this.mission.write(mission);
   }
 
   showFindings(kind, findings) {
@@ -171,7 +204,7 @@ class Play {
       shown = this.previewed;
       const found = await this.simulation.whatIf(shown);
       if (this.previewed !== shown || found === undefined) continue;
-      byId('preview').textContent = found.error ?? describeMove(found);
+      byId('preview').textContent = found.error ?? describeMove(found, this.simulation.performed.has(found.name));
       byId('preview').className = found.error !== undefined || found.outcome === 'rejected' ? 'bad' : '';
     }
     this.isPreviewing = false;
@@ -191,12 +224,13 @@ class Play {
     byId('to-next').disabled = simulation.due.next === null;
     byId('undo').disabled = !simulation.canUndo;
     byId('redo').disabled = !simulation.canRedo;
-    byId('restart').disabled = place.entries === 0;
+    byId('restart').disabled = !simulation.canUndo;
     const later = page.run.size - place.index;
     const hints = [simulation.isStale ? 'The catalog has errors: this is the last robot that had none.' : '',
+                   this.hasDraft ? 'The mission has errors: what you do is not recorded in its text.' : '',
                    later > 0 ? `In the past: what you do now replaces ${quantity(later, 'later event')}.` : ''];
     byId('later').textContent = hints.filter((hint) => hint !== '').join(' ');
-    document.title = `${simulation.catalogName} \u2013 cbc play`;
+    document.title = `${simulation.names.catalog} \u2013 cbc play`;
     if (this.previewed) this.previewAgain();
   }
 
@@ -244,7 +278,7 @@ class Play {
     on('end-work', () => this.endWork());
     on('copy-link', async () => {
       const link = await this.link();
-      this.unsaved.clear();
+      this.markSaved();
       return this.copy(link, `The link is copied.${doubtOf(link)}`);
     });
     on('copy-frame', async () => {
@@ -252,14 +286,19 @@ class Play {
       return this.copy(`<iframe src="${address}" width="100%" height="720" title="cbc play"></iframe>`, `The HTML is copied.${doubtOf(address)}`);
     });
     on('save-page', async () => {
-      this.unsaved.clear();
-      saveFile(await pageWith(await this.sessionNow()), `${this.simulation.catalogName.replace(/\.\w+$/, '')}.html`, 'text/html');
+      this.markSaved();
+      saveFile(await pageWith(await this.sessionNow()), `${this.stem}.html`, 'text/html');
     });
+  }
+
+  /** What files of this robot begin with. */
+  get stem() {
+    return fileName(this.simulation.names.catalog).replace(/\.\w+$/, '');
   }
 
   async sessionNow() {
     const { mission, index } = await this.simulation.whole();
-    return { catalog: this.catalog.text, name: this.simulation.catalogName, mission, properties: this.properties.text,
+    return { catalog: this.catalog.text, name: fileName(this.simulation.names.catalog), mission, properties: this.properties.text,
              ...(mission === '' ? {} : { index }) };
   }
 
@@ -293,22 +332,20 @@ class Play {
     return this.simulation.redo();
   }
 
-  /** The same robot, before anything was done. */
+  /** To where nothing was done yet, from where one can come back until something else is done. */
   restart() {
     this.clock.halt();
-    this.hasDraft = false;
-    return this.simulation.open(this.catalog.text);
+    return this.simulation.goTo(0);
   }
 
   setUpTabs() {
-    const names = ['catalog', 'mission', 'properties'];
-    for (const [place, name] of names.entries()) {
+    for (const [place, name] of roles.entries()) {
       const tab = byId(`tab-${name}`);
       tab.addEventListener('click', () => this.chooseTab(name));
       tab.addEventListener('keydown', ({ key }) => {
         const step = { ArrowRight: 1, ArrowLeft: -1 }[key];
         if (step === undefined) return;
-        const next = names[(place + step + names.length) % names.length];
+        const next = roles[(place + step + roles.length) % roles.length];
         this.chooseTab(next);
         byId(`tab-${next}`).focus();
       });
@@ -316,7 +353,7 @@ class Play {
   }
 
   chooseTab(wanted) {
-    for (const name of ['catalog', 'mission', 'properties']) {
+    for (const name of roles) {
       const tab = byId(`tab-${name}`);
       tab.setAttribute('aria-selected', `${name === wanted}`);
       tab.tabIndex = name === wanted ? 0 : -1;
@@ -334,23 +371,25 @@ class Play {
         if (chosen !== undefined) await open(await chosen.text(), chosen.name);
         file.value = '';
       });
-      byId(`copy-${what}`).addEventListener('click', async () => this.copy(await textOf(), `The ${what} is copied.`));
+      byId(`copy-${what}`).addEventListener('click', async () => this.copy(await textOf(), `Copied: ${what}.`));
       byId(`save-${what}`).addEventListener('click', async () => {
-        this.unsaved.delete(what);
-        saveFile(await textOf(), nameOf());
+        this.markSaved(what);
+        saveFile(await textOf(), fileName(nameOf()));
       });
     };
     setUp('catalog', (catalog, name) => (this.mayReplace() ? this.openSession({ catalog, name }) : undefined),
-      () => this.catalog.text, () => this.simulation.catalogName);
-    setUp('mission', (text) => this.openMission(text),
-      () => this.missionText(), () => `${this.simulation.catalogName.replace(/\.\w+$/, '')}.mission.yaml`);
+      () => this.catalog.text, () => this.simulation.names.catalog);
+    setUp('mission', (text, name) => this.openMission(text, name), () => this.missionText(), () => this.simulation.names.mission);
+    setUp('properties', (text) => {
+      if (!this.unsaved.has('properties') || this.mayReplace()) this.properties.text = text;
+    }, () => this.properties.text, () => `${this.stem}.properties.yaml`);
   }
 
   /** With the name of its catalog, as a file has it. */
   async missionText() {
     const { mission } = await this.simulation.whole();
     if (/^\s*[[{]/.test(mission)) return mission; // JSON, as it was loaded
-    const line = `catalog: ${JSON.stringify(this.simulation.catalogName)}`;
+    const line = `catalog: ${JSON.stringify(fileName(this.simulation.names.catalog))}`;
     return /^catalog:/m.test(mission) ? mission.replace(/^catalog:.*$/m, () => line) : `${line}\n${mission || 'events: []\n'}`;
   }
 

@@ -63,7 +63,7 @@ class Prover {
     if (properties.trim() === '') return verify(['robot.yaml'], { 'robot.yaml': catalog });
     // A property file may name its catalog, as whatever it is called where it comes from.
     const found = /^catalog:[ \t]*(["']?)([^"'#\n]+?)\1[ \t]*(#.*)?$/m.exec(properties)?.[2].replace(/^.*\//, '');
-    const named = found === 'robot.properties.yaml' ? 'robot.yaml' : found;
+    const named = ['robot.properties.yaml', '.', '..', ''].includes(found) ? 'robot.yaml' : found;
     const own = properties.replace(/^catalog:.*$/m, `catalog: ${JSON.stringify(named ?? '')}`);
     return verify(
       [...(named === undefined ? ['robot.yaml'] : []), 'robot.properties.yaml', '--format', 'json', '--scripts', 'scripts'],

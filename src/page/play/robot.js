@@ -1,7 +1,7 @@
 // The robot to drive: what can be asked of it, and what it does. Each control stands for an entry of a mission.
 
-/** What an event would do, in a line: from a move of cbc.what-if/1. */
-function describeMove(move) {
+/** What an event would do, in a line: from a move of cbc.what-if/1. `isActive`: the behavior that it is about. */
+function describeMove(move, isActive) {
   const started = Object.entries(move.started).map(([task, behavior]) => (task === behavior ? `+${task}` : `+${task} (${behavior})`));
   const changed = Object.entries(move.changed).map(([task, behavior]) => `${task} \u2192 ${nameOfChange(behavior)}`);
   const stopped = move.stopped.map((task) => `\u2212${task}`);
@@ -11,7 +11,7 @@ function describeMove(move) {
     return `\u00d7 would be rejected: ${move.conflict.map(({ message }) => message).join('; ')}`;
   }
   if (effects.length > 0) return `would do: ${effects.join(', ')}`;
-  return move.verb === 'fault' ? 'would change nothing now: an active behavior goes on until it fails or is needed anew'
+  return move.verb === 'fault' && isActive ? `would change nothing yet: ${move.name} goes on until it fails (press "fail" of its task)`
     : 'would change no behavior';
 }
 
@@ -92,6 +92,7 @@ class Robot {
     const why = buttonElement('why?', () => this.asks.onWhy(name));
     why.setAttribute('aria-label', `why ${name} runs or not`);
     setOff(start, !isRequestable);
+    if (!isRequestable) start.title = 'Runs only for a behavior that requires it (start_on_request: false)';
     row.buttons.append(start, stop, finish, fail, why);
     return { ...row, stop, finish, fail };
   }

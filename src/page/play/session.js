@@ -4,6 +4,8 @@
 // What was done is kept here as well as in the program: a mission that was loaded, and the requests after it. With
 // another catalog, or after the program was lost, all of it is done again.
 
+const beginning = { index: 0, time: 0, entry: 0, entries: 0 };
+
 class Simulation {
   /** `view`: {onCatalog(catalog, requestable), onState(), onText(), onNote(text, isBad), onFindings(kind, findings),
    * onLeave()}. */
@@ -11,12 +13,12 @@ class Simulation {
     this.engine = engine;
     this.view = view;
     this.page = null;
-    this.catalogName = 'robot.yaml';
+    this.names = { catalog: 'robot.yaml', mission: 'robot.mission.yaml' }; // of files
     this.catalogText = null; // of the robot; null: there has been none
     this.isOpen = false;
     this.isStale = false; // the last text has errors, and the robot is an earlier one
     this.work = Promise.resolve(); // what was asked for is done one after the other
-    this.place = { index: 0, time: 0, entry: 0, entries: 0 }; // the present state, see session.h
+    this.place = beginning; // the present state, see session.h
     this.due = { timeouts: {}, next: null, now: 0 };
     this.forget();
   }
@@ -25,7 +27,7 @@ class Simulation {
     this.mission = ''; // that was loaded
     this.missionEntries = 0; // of it, in the program
     this.done = []; // requests after it
-    this.lost = null; // if not all could be done again: {count} of these, and the place before
+    this.lost = null; // if not all could be done again: {count} of these, and the whole and the place before
   }
 
   /** One thing after the other. What fails is told, and the next one goes on. */
@@ -45,6 +47,8 @@ class Simulation {
     return this.do(async () => {
       this.forget();
       this.mission = mission;
+      this.isOpen = false; // until its catalog is right
+      this.place = beginning;
       await this.openNow(text);
     });
   }
@@ -62,7 +66,8 @@ class Simulation {
   }
 
   async openNow(text) {
-    const answer = await this.engine.ask({ do: 'open', catalog: text, name: this.catalogName });
+    const before = this.lost?.before ?? await this.wholeNow();
+    const answer = await this.engine.ask({ do: 'open', catalog: text, name: this.names.catalog });
     this.view.onFindings('catalog', findingsOf(answer));
     this.isStale = answer.catalog === undefined;
     if (this.isStale) {
@@ -74,29 +79,28 @@ class Simulation {
     this.catalog = new Catalog(answer.catalog);
     this.view.onCatalog(this.catalog, new Set(answer.requestable));
     this.isOpen = true;
-    await this.repeat(answer.begin);
+    await this.repeat(answer.begin, before);
   }
 
   /** Does again what was done, and goes where the session was. What does not fit is kept until something else is done. */
-  async repeat(begin) {
+  async repeat(begin, before) {
     const place = this.lost?.place ?? this.place;
-    const { entry, entries } = place;
-    const isPast = entry < entries;
-    const news = { begin, events: [], failures: [] };
+    const news = { begin, events: [], failures: [], expectations: 0 };
     let note = '';
     this.lost = null;
     this.missionEntries = 0;
     this.view.onFindings('mission', []);
-    let last = { index: 0, time: 0, entry: 0, entries: 0 };
+    let last = beginning;
     if (this.mission !== '') {
       const { answer, fault } = await this.askLoad(this.mission);
       if (fault !== null) {
         note = `The mission does not fit this robot: ${fault}`;
-        this.lost = { count: 0, place };
+        this.lost = { count: 0, place, before };
       } else {
         Object.assign(news, answer);
         last = answer;
         this.missionEntries = answer.entries;
+        note = answer.stopped ?? '';
       }
     }
     for (let count = 0; this.lost === null && count < this.done.length; ++count) {
@@ -104,17 +108,26 @@ class Simulation {
         last = await this.engine.ask(this.done[count]);
         news.events.push(...last.events);
         news.failures.push(...last.failures);
+        news.expectations = last.expectations;
       } catch (error) {
         if (isEnd(error)) throw error;
         note = `What you did does not fit this robot from step ${count + 1} on: ${error.message}`;
-        this.lost = { count, place };
+        this.lost = { count, place, before };
       }
     }
-    this.showRun(news.begin, news.events, news.failures);
-    if (this.lost === null && isPast && entry <= last.entries) last = await this.engine.ask({ do: 'goto', entry });
+    this.showRun(news);
+    if (this.lost === null) last = await this.goToSame(place, last, news.events);
     await this.arrive(last);
     this.view.onNote(note, note !== '');
     this.view.onText();
+  }
+
+  /** Goes where the session was, which may be an event that the clock made on its way. */
+  async goToSame({ entry, entries, time }, last, events) {
+    if (entry >= entries || entry > last.entries) return last;
+    const answer = await this.engine.ask({ do: 'goto', entry });
+    const index = events.filter((event) => event.time <= time).length;
+    return time > answer.time && index > answer.index ? this.engine.ask({ do: 'goto', index }) : answer;
   }
 
   /** A mission, in place of what was done. Returns whether it could be used. */
@@ -129,9 +142,9 @@ class Simulation {
       this.forget();
       this.mission = mission;
       this.missionEntries = answer.entries;
-      this.showRun(answer.begin, answer.events, answer.failures);
+      this.showRun(answer);
       await this.arrive(answer);
-      this.view.onNote('', false);
+      this.view.onNote(answer.stopped ?? '', answer.stopped !== undefined);
     });
     return this.mission === mission;
   }
@@ -174,8 +187,8 @@ class Simulation {
     const isForked = before.entry < this.missionEntries;
     const missionUntilNow = isForked ? (await this.engine.ask({ do: 'mission' })).mission : this.mission;
     const answer = await this.engine.ask(request);
-    const kept = this.lost?.count ?? Math.max(0, before.entry - this.missionEntries);
-    this.done.length = Math.min(this.done.length, kept);
+    const done = Math.min(this.lost?.count ?? Infinity, Math.max(0, before.entry - this.missionEntries));
+    this.done.length = Math.min(this.done.length, done);
     if (this.lost !== null && this.missionEntries === 0) this.mission = '';
     else this.mission = missionUntilNow;
     if (isForked) this.missionEntries = before.entry;
@@ -184,18 +197,21 @@ class Simulation {
     if (answer.entry === before.entry + 2) this.done.push({ do: 'advance', to: before.time });
     this.done.push(request.do === 'advance' ? { do: 'advance', to: answer.time } : request);
 
-    const { first, events, failures, warnings = [] } = answer;
+    const { first, events, failures, expectations, warnings = [] } = answer;
     const { run } = this.page;
     if (first > run.size) {
+      const failed = run.data.expectations.failures.length + failures.length;
+      Object.assign(run.data.expectations, { passed: expectations - failed, failed });
       this.page.growRun(events, failures);
     } else {
-      const keptFailures = run.data.expectations.failures.filter((failure) => failure.index < first);
-      this.showRun(run.begin, [...run.events.slice(0, first - 1), ...events], [...keptFailures, ...failures]);
+      const kept = run.data.expectations.failures.filter((failure) => failure.index < first);
+      this.showRun({ begin: run.begin, events: [...run.events.slice(0, first - 1), ...events],
+                     failures: [...kept, ...failures], expectations });
     }
     await this.arrive(answer);
     const rejected = events.find((event) => event.outcome === 'rejected');
     const reasons = rejected?.conflict.map(({ message }) => message).join('; ');
-    const notes = [...(rejected === undefined ? [] : [`${describeEvent(rejected, this.catalog)} was rejected: ${reasons}`]), ...warnings];
+    const notes = [...(rejected === undefined ? [] : [`Rejected: ${describeEvent(rejected, this.catalog)}: ${reasons}`]), ...warnings];
     this.view.onNote(notes.join('; '), notes.length > 0);
     this.view.onText();
   }
@@ -269,17 +285,25 @@ class Simulation {
   }
 
   /** The mission with all that was done, as it was loaded if nothing was done since, and the index of the present
-   * event: {mission, index}. */
+   * event: {mission, index}. What the robot cannot do any more is a part of it. */
   async whole() {
-    let whole = { mission: this.mission, index: this.place.index };
+    let whole = null;
     await this.do(async () => {
-      if (!this.isOpen || this.done.length === 0 || this.lost !== null) return;
-      const { index, entry, entries } = this.place;
-      if (entry < entries) await this.engine.ask({ do: 'goto', entry: entries });
-      whole = { mission: (await this.engine.ask({ do: 'mission' })).mission, index };
-      if (entry < entries) await this.engine.ask({ do: 'goto', index });
+      whole = this.lost?.before ?? await this.wholeNow();
     });
-    return whole;
+    return whole ?? { mission: this.mission, index: this.place.index };
+  }
+
+  async wholeNow() {
+    const { index, entry, entries } = this.place;
+    if (!this.isOpen || this.done.length === 0) return { mission: this.mission, index };
+    if (entry < entries) await this.engine.ask({ do: 'goto', entry: entries });
+    const { mission } = await this.engine.ask({ do: 'mission' });
+    if (entry < entries) {
+      const back = await this.engine.ask({ do: 'goto', entry });
+      if (back.index !== index) await this.engine.ask({ do: 'goto', index }); // the clock made it
+    }
+    return { mission, index };
   }
 
   async why(task) {
@@ -290,9 +314,9 @@ class Simulation {
     return event;
   }
 
-  showRun(begin, events, failures) {
-    const data = { catalog: this.catalogName, script: this.catalogName, events,
-                   expectations: { passed: 0, failed: failures.length, failures, successes: [] } };
+  showRun({ begin, events, failures, expectations }) {
+    const data = { catalog: this.names.catalog, script: this.names.mission, events,
+                   expectations: { passed: expectations - failures.length, failed: failures.length, failures, successes: [] } };
     const run = new Run(data, this.catalog, begin);
     if (this.page === null) {
       this.page = new Page([run], null, false);
@@ -300,6 +324,11 @@ class Simulation {
     } else {
       this.page.replaceRun(run);
     }
+  }
+
+  /** The behaviors that are active now. */
+  get performed() {
+    return new Set(Object.values(this.page.run.running(this.place.index)));
   }
 
   get canUndo() {

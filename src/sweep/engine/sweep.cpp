@@ -430,7 +430,7 @@ SweepOutcome sweep(const CompiledCatalog& catalog, const SweepSettings& settings
   if (compared) {
     SequenceComparison::Totals found;
     for (const Tally& tally : tallies) found.add(tally.comparison()->totals());
-    result.against = to_comparison(swept, *compared, std::move(found));
+    result.against = to_comparison(swept, *compared, found);
     result.against->old_digest = to_hex(identity_of(old_version->catalog));
   }
   SweepTimes& times = result.times.emplace();
