@@ -49,7 +49,7 @@ namespace cbc::play {
 ///   mission  `mission`: the session as a script, with expectations
 class Session {
  public:
-  [[nodiscard]] std::string answer(std::string_view request);
+  [[nodiscard]] std::string answer(std::string_view text);
 
  private:
   /// An event or an expectation, or the clock that moves on, and what came of it.
