@@ -499,10 +499,8 @@ void Server::take_proofs(Proved proved) {
   if (!workspace_->has_news()) prove_next();
 }
 
-/// Files that are neither open nor in the workspace are others' business.
 void Server::publish(const File& file) {
-  const bool is_shown = file.text != nullptr && (file.version || !file.folder.empty());
-  Json diagnostics = is_shown ? diagnostics_json(*workspace_, file) : Json::array();
+  Json diagnostics = file.is_shown() ? diagnostics_json(*workspace_, file) : Json::array();
   const bool was_published = published_.contains(file.path);
   if (diagnostics.empty() && !was_published && !file.version) return;
   if (diagnostics.empty()) {
