@@ -248,8 +248,13 @@ class Protocol(LspTest):
         self.assertEqual(client.requests, [])
         client.open(self.robot, ROBOT.replace("suitability: 50", "suitability: 60"))
         client.settle()
-        self.assertEqual({request["method"] for request in client.requests},
-                         {"workspace/inlayHint/refresh", "workspace/codeLens/refresh"})
+        renewed = {"workspace/inlayHint/refresh", "workspace/codeLens/refresh"}
+        self.assertEqual({request["method"] for request in client.requests}, renewed)
+        client.requests.clear()
+        self.robot.unlink()
+        client.close(self.robot)
+        client.settle()
+        self.assertEqual({request["method"] for request in client.requests}, renewed)
 
 
 class Findings(LspTest):
@@ -280,7 +285,7 @@ class Findings(LspTest):
         client.open(self.robot)
         client.settle()
         client.change(self.robot, 2, {"text": "behaviors: 5\n"})
-        client.of("documentSymbol", self.robot)  # which looks for findings
+        client.of("codeLens", self.robot)  # which looks for findings
         client.change(self.robot, 3, {"text": ROBOT})
         client.settle()
         self.assertEqual((client.versions[str(self.robot)], self.messages(client, self.robot)), (3, []))
