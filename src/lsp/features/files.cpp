@@ -78,10 +78,9 @@ class SymbolList {
     if (path.empty() && scalar.is_key && !scalar.text.empty()) {
       symbols_.push_back(symbol(scalar.text, symbol_kind(scalar.text), scalar, scalar.begin));
       section_ = scalar.text;
-    } else if (!is_list && !symbols_.empty()) {
+    } else if (!is_list && !is_in_entry && !symbols_.empty()) {
       symbols_.back()["range"]["end"] = to_json(text_.place_of(scalar.end));
-    }
-    if (is_in_entry) {
+    } else if (is_in_entry) {
       entry_.push_back(scalar);
       depth_ = depth;
     }
@@ -91,7 +90,6 @@ class SymbolList {
     if (entry_.empty()) return;
     const auto [title, place] = title_of(entry_, depth_);
     const bool is_event = depth_ == 0;
-    Json& list = is_event || symbols_.empty() ? symbols_ : symbols_.back()["children"];
     // From its bracket on, if it has one.
     const std::string& text = text_.content();
     const std::size_t content = text.find_first_not_of(" \t\r\n", entry_.front().entry);
@@ -99,7 +97,12 @@ class SymbolList {
     Json found = symbol(title, is_event ? symbol_event : symbol_kind(section_), *place,
                         is_comment ? entry_.front().begin : content);
     found["range"]["end"] = to_json(text_.place_of(entry_.back().end));
-    list.push_back(std::move(found));
+    if (is_event || symbols_.empty()) {
+      symbols_.push_back(std::move(found));
+    } else {
+      symbols_.back()["range"]["end"] = found["range"]["end"];
+      symbols_.back()["children"].push_back(std::move(found));
+    }
     entry_.clear();
   }
 
