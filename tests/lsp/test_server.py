@@ -670,6 +670,18 @@ class HalfWritten(LspTest):
         self.assertEqual(lines(client.at("documentHighlight", self.mission, 6, 9)), [(2, 9), (5, 21), (6, 9)])
         self.assertEqual(client.of("documentSymbol", self.mission)[1]["children"][-1]["name"], "start: DRIVE")
 
+    def test_names_in_what_nobody_writes(self):
+        client = self.start()
+        client.open(self.robot)
+        long, many = "K" * 1000000, ", ".join(["a"] * 200000)
+        for version, text in enumerate((f"tasks:\n- {long}: [{many}\n", "tasks: " + "[" * 150 + many,
+                                        f"tasks: [{{x: [{many}]}}, "), 2):
+            client.change(self.robot, version, {"text": text})
+            symbols = client.of("documentSymbol", self.robot)
+            self.assertEqual(symbols[0]["name"], "tasks")
+            for method in ("definition", "documentHighlight"):
+                self.assertFalse(client.at(method, self.robot, 0, len(text) // 2))
+
     def test_hover_explains_the_rule(self):
         client = self.start()
         client.open(self.robot, ROBOT.replace("task: LOCALIZE}]", "task: LOCALISE}]"))

@@ -26,6 +26,9 @@ int symbol_kind(std::string_view key) {
   return symbol_array;
 }
 
+/// Of an entry, more are not looked at for what it is called.
+constexpr std::size_t most_scalars = 1000;
+
 /// The scalars of an entry of a list.
 using Entry = std::vector<Context>;
 
@@ -81,7 +84,8 @@ class SymbolList {
     } else if (!is_list && !is_in_entry && !symbols_.empty()) {
       symbols_.back()["range"]["end"] = to_json(text_.place_of(scalar.end));
     } else if (is_in_entry) {
-      entry_.push_back(scalar);
+      if (entry_.size() < most_scalars) entry_.push_back(scalar);
+      end_ = scalar.end;
       depth_ = depth;
     }
   }
@@ -96,7 +100,7 @@ class SymbolList {
     const bool is_comment = content < text.size() && text[content] == '#';
     Json found = symbol(title, is_event ? symbol_event : symbol_kind(section_), *place,
                         is_comment ? entry_.front().begin : content);
-    found["range"]["end"] = to_json(text_.place_of(entry_.back().end));
+    found["range"]["end"] = to_json(text_.place_of(end_));
     if (is_event || symbols_.empty()) {
       symbols_.push_back(std::move(found));
     } else {
@@ -118,6 +122,7 @@ class SymbolList {
   const Text& text_;
   std::string section_;
   Entry entry_;
+  std::size_t end_ = 0;    ///< of the entry
   std::size_t depth_ = 0;  ///< of the list of the entry
   Json symbols_ = Json::array();
 };

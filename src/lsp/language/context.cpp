@@ -24,6 +24,10 @@ using yaml::Span;
 /// More than any text has that cbc reads; see yaml::maximum_depth.
 constexpr std::size_t most_frames = 200;
 
+// Where each scalar is visited, its path is made anew; so that takes little time in any text.
+constexpr std::size_t most_visited_frames = 64;
+constexpr std::size_t longest_visited_key = 1000;
+
 /// What comes next in a mapping or list.
 enum class Next : std::uint8_t { entry, value, nothing };
 
@@ -246,7 +250,10 @@ class Scanner {
   // The cursor ------------------------------------------------------------------------------------
 
   [[nodiscard]] std::string step_of(const Frame& frame) const {
-    return frame.is_list || frame.entries.empty() ? "" : text_of(frame.entries.back().key);
+    if (frame.is_list || frame.entries.empty()) return {};
+    const Span& key = frame.entries.back().key;
+    const bool is_kept = visit_ == nullptr || key.end - key.begin <= longest_visited_key;
+    return is_kept ? text_of(key) : "...";
   }
 
   /// Fills in the path to a frame, and what is around it.
@@ -296,7 +303,8 @@ class Scanner {
 
   /// Returns whether the cursor is in the scalar.
   bool note_scalar(const Span& span, bool is_key, bool is_open) {
-    const bool is_here = visit_ != nullptr || (cursor_ >= span.begin && cursor_ <= span.end);
+    const bool is_here = visit_ == nullptr ? cursor_ >= span.begin && cursor_ <= span.end
+                                           : frames_.size() <= most_visited_frames;
     if (!is_here || is_over_) return false;
     note_place(is_key, is_open);
     result_.begin = span.begin;

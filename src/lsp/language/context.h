@@ -42,7 +42,9 @@ struct Context {
 /// several documents, the one that has the cursor counts.
 [[nodiscard]] Context context_at(std::string_view text, std::size_t offset);
 
-/// The place of each scalar, in the order of the text, without `siblings` and `outer`.
+/// The place of each scalar, in the order of the text, without `siblings` and `outer`. Passes over
+/// what is nested deeper than 64 mappings and lists; a key of more than 1000 bytes is "..." in
+/// paths.
 void visit_scalars(std::string_view text, const std::function<void(const Context&)>& visit);
 
 }  // namespace cbc::lsp
