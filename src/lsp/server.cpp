@@ -312,11 +312,11 @@ void Server::add_requests() {
     });
   };
   requests_["textDocument/documentSymbol"] = [this](const Json& params) {
-    const File* const file = file_of(params);
+    const File* const file = text_of_request(params);
     return file == nullptr ? Json::array() : list_symbols(*file, client_);
   };
   requests_["textDocument/foldingRange"] = [this](const Json& params) {
-    const File* const file = file_of(params);
+    const File* const file = text_of_request(params);
     return file == nullptr ? Json::array() : list_folds(*file);
   };
   requests_["textDocument/codeLens"] = [this](const Json& params) {
@@ -456,7 +456,8 @@ void Server::show(const Ran& ran) {
 bool Server::work() {
   if (workspace_ == nullptr || !workspace_->has_news()) return false;
   const File& file = workspace_->next_checked();
-  has_old_answers_ = has_old_answers_ || file.kind == cli::FileKind::catalog;
+  const bool is_gone = file.text == nullptr;
+  has_old_answers_ = has_old_answers_ || is_gone || file.kind == cli::FileKind::catalog;
   publish(file);
   if (!workspace_->has_news()) {
     prove_next();
@@ -499,10 +500,8 @@ void Server::take_proofs(Proved proved) {
   if (!workspace_->has_news()) prove_next();
 }
 
-/// Files that are neither open nor in the workspace are others' business.
 void Server::publish(const File& file) {
-  const bool is_shown = file.text != nullptr && (file.version || !file.folder.empty());
-  Json diagnostics = is_shown ? diagnostics_json(*workspace_, file) : Json::array();
+  Json diagnostics = file.is_shown() ? diagnostics_json(*workspace_, file) : Json::array();
   const bool was_published = published_.contains(file.path);
   if (diagnostics.empty() && !was_published && !file.version) return;
   if (diagnostics.empty()) {

@@ -186,6 +186,12 @@ void expect_names(const test::EditedFile& file, const std::vector<NamePlace>& na
     if (kind) found.emplace(begin, *kind);
   }
   EXPECT_EQ(found, offsets_of(names, file.text)) << file.path;
+  NameMap visited;
+  lsp::visit_scalars(file.text, [&](const Context& context) {
+    const auto kind = lsp::name_kind_at(context, file.kind, &catalog);
+    if (kind) visited.emplace(context.begin, *kind);
+  });
+  EXPECT_EQ(visited, found) << file.path;
 }
 
 TEST(LspNames, OfOurFilesAreThoseOfTheReaders) {

@@ -1,5 +1,6 @@
 """`cbc lsp` as an editor sees it, by a client that follows scripts."""
 
+import html
 import json
 import os
 import pathlib
@@ -40,6 +41,10 @@ properties:
 SETTINGS = "warn: [can-run-together]\nnever_together:\n- [DRIVE, LOCALIZE]\n"
 
 
+def units(text):
+    return len(text.encode("utf-16-le")) // 2
+
+
 class LspTest(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp()).resolve()
@@ -61,6 +66,52 @@ class LspTest(unittest.TestCase):
 
     def messages(self, client, path):
         return [finding["message"] for finding in client.findings.get(str(path), [])]
+
+    def of_lint(self, folder):
+        """Rule, level, message and range of each finding, by file, as the protocol has them."""
+        _, output, complaints = run_cbc("lint", "--format", "json", folder)
+        levels = {"error": 1, "warning": 2, "note": 3}
+        findings = {}
+        for file in json.loads(output or '{"files": []}')["files"]:
+            path = os.path.normpath(file["file"])
+            lines = pathlib.Path(path).read_bytes().decode(errors="replace").split("\n")
+            mark = lines[0].startswith("\ufeff")
+
+            def place(line, column):
+                text = lines[line - 1] if line <= len(lines) else ""
+                return line - 1, units(text[:column - 1 + (mark and line == 1)])
+
+            for found in file["diagnostics"]:
+                findings.setdefault(path, []).append((
+                    found["rule"], levels[found["severity"]], found["message"],
+                    place(found["line"], found["column"]), place(found["end_line"], found["end_column"])))
+        return {path: sorted(found) for path, found in findings.items()}, complaints
+
+    def of_server(self, client):
+        client.settle()
+        place = lambda at: (at["line"], at["character"])
+        return {path: sorted((found["code"], found["severity"], found["message"],
+                              place(found["range"]["start"]), place(found["range"]["end"])) for found in findings)
+                for path, findings in client.findings.items() if findings}
+
+    def check_equal(self, client, folder):
+        expected, complaints = self.of_lint(folder)
+        found = self.of_server(client)
+        # What is not checked has no findings in a report, but a complaint.
+        unchecked = re.findall(r"^cbc: (.*):(\d+):(\d+): this .* is not checked, .* cannot be used(?!; correct)",
+                               complaints, re.MULTILINE)
+        for path, line, column in unchecked:
+            (finding,) = found.pop(os.path.normpath(path))
+            self.assertEqual(finding[3], (int(line) - 1, int(column) - 1), path)
+        for path in sorted(expected.keys() | found.keys()):
+            if path.endswith(".cbc.yaml") and path not in expected:
+                # Those of settings that cannot be used are complaints, too.
+                said = re.findall(rf"^{re.escape(path)}:(\d+):(\d+): error: (.*) \[(.*)\]$", complaints, re.MULTILINE)
+                self.assertEqual(sorted((str(line + 1), str(column + 1), message, rule)
+                                        for rule, _, message, (line, column), _ in found[path]), sorted(set(said)), path)
+                continue
+            self.assertEqual(found.get(path), expected.get(path), path)
+        return len(unchecked)
 
 
 class Protocol(LspTest):
@@ -154,7 +205,6 @@ class Protocol(LspTest):
         tasks = [f"T{number}_\U0001F422" for number in range(3000)]
         text = json.dumps({"behaviors": [{"behavior": "B_" + task, "task": task} for task in tasks]},
                           ensure_ascii=False)
-        units = lambda text: len(text.encode("utf-16-le")) // 2
         client = self.start()
         client.open(self.robot, text)
         for task in (tasks[0], tasks[1], tasks[1999], tasks[-1]):
@@ -198,30 +248,16 @@ class Protocol(LspTest):
         self.assertEqual(client.requests, [])
         client.open(self.robot, ROBOT.replace("suitability: 50", "suitability: 60"))
         client.settle()
-        self.assertEqual({request["method"] for request in client.requests},
-                         {"workspace/inlayHint/refresh", "workspace/codeLens/refresh"})
+        renewed = {"workspace/inlayHint/refresh", "workspace/codeLens/refresh"}
+        self.assertEqual({request["method"] for request in client.requests}, renewed)
+        client.requests.clear()
+        self.robot.unlink()
+        client.close(self.robot)
+        client.settle()
+        self.assertEqual({request["method"] for request in client.requests}, renewed)
 
 
 class Findings(LspTest):
-    def of_lint(self, folder):
-        output = run_cbc("lint", "--format", "json", folder)[1] or '{"files": []}'
-        levels = {"error": 1, "warning": 2, "note": 3}
-        return {os.path.normpath(file["file"]): sorted(
-            (found["rule"], levels[found["severity"]], found["message"]) for found in file["diagnostics"])
-            for file in json.loads(output)["files"] if file["diagnostics"]}
-
-    def of_server(self, client):
-        client.settle()
-        return {path: sorted((found["code"], found["severity"], found["message"]) for found in findings)
-                for path, findings in client.findings.items() if findings}
-
-    def check_equal(self, client, folder):
-        expected, found = self.of_lint(folder), self.of_server(client)
-        for path in sorted(expected.keys() | found.keys()):
-            # Of settings that cannot be used, lint says so beside its findings.
-            if not path.endswith(".cbc.yaml"):
-                self.assertEqual(found.get(path), expected.get(path), path)
-
     def test_the_corpus(self):
         for name in ("catalogs", "docs", "tests/golden/cases"):
             with Client(SOURCE / name) as client:
@@ -249,7 +285,7 @@ class Findings(LspTest):
         client.open(self.robot)
         client.settle()
         client.change(self.robot, 2, {"text": "behaviors: 5\n"})
-        client.of("documentSymbol", self.robot)  # which looks for findings
+        client.of("codeLens", self.robot)  # which looks for findings
         client.change(self.robot, 3, {"text": ROBOT})
         client.settle()
         self.assertEqual((client.versions[str(self.robot)], self.messages(client, self.robot)), (3, []))
@@ -285,6 +321,49 @@ class Findings(LspTest):
         client.change(self.robot, 4, {"text": ROBOT})
         client.settle()
         self.assertEqual(self.messages(client, self.mission), [])
+
+    def test_a_catalog_that_cannot_be_used(self):
+        client = self.start()
+        client.open(self.mission)
+        client.open(self.properties)
+        said = {}
+
+        def check(name, reason, line=1):
+            client.settle()
+            for path, what in ((self.mission, "script"), (self.properties, "property file")):
+                (found,) = client.findings[str(path)]
+                self.assertEqual((found["message"], found["severity"], found["range"]),
+                                 (f"this {what} is not checked: {reason}", 1, span(0, 9, 0, 9 + len(name))))
+                self.assertIn(f"{path}:1:10: this {what} is not checked", run_cbc("lint", path)[2])
+                said[what] = client.at("hover", path, 0, 12)
+                self.assertEqual(client.of("inlayHint", path, range=span(0, 0, 99, 0)), [])
+                client.of("codeAction", path, range=span(0, 0, 99, 0), context={"diagnostics": []})
+
+        self.robot.unlink()
+        gone = {"changes": [{"uri": uri_of(self.robot), "type": 3}]}
+        client.tell("workspace/didChangeWatchedFiles", gone)
+        check("robot.yaml", "cannot read 'robot.yaml': No such file or directory")
+        for text, reason in (("", "'robot.yaml' is not a catalog"),
+                             (MISSION, "'robot.yaml' is a script; expected a catalog here")):
+            self.write("robot.yaml", text)
+            client.tell("workspace/didChangeWatchedFiles", gone)
+            check("robot.yaml", reason)
+        # Its own errors say enough.
+        for text in ("behaviors: [{\n", ROBOT):
+            self.write("robot.yaml", text)
+            client.tell("workspace/didChangeWatchedFiles", gone)
+            client.settle()
+            self.assertEqual(self.messages(client, self.mission) + self.messages(client, self.properties), [])
+        # Where they are not shown, they do not.
+        elsewhere = pathlib.Path(tempfile.mkdtemp()).resolve()
+        self.addCleanup(shutil.rmtree, elsewhere)
+        other = elsewhere / "robot.yaml"
+        other.write_text("behaviors: [{\n")
+        for version, path in enumerate((self.mission, self.properties), 2):
+            text = path.read_text().replace("robot.yaml", str(other))
+            self.write(path.name, text)
+            client.change(path, version, {"text": text})
+        check(str(other), f"the catalog '{other}' cannot be used; 'cbc lint' says why")
 
     def test_files_that_come_and_go(self):
         client = self.start(capabilities={"workspace": {"didChangeWatchedFiles": {"dynamicRegistration": True}}})
@@ -358,6 +437,20 @@ class Findings(LspTest):
         client.settle()
         self.assertEqual(self.messages(client, other / "bad.yaml"), [])
 
+    def test_names_in_a_folder_that_was_removed(self):
+        other = pathlib.Path(tempfile.mkdtemp()).resolve()
+        self.addCleanup(shutil.rmtree, other)
+        (other / "far.yaml").write_text(MISSION.replace("robot.yaml", str(self.robot)))
+        client = self.start()
+        folder = {"uri": uri_of(other), "name": "other"}
+        place = Names.place_of(self, ROBOT, "- {task: DRIVE", "DRIVE")
+        for added, removed, count in (([folder], [], 4), ([], [folder], 3)):
+            client.tell("workspace/didChangeWorkspaceFolders", {"event": {"added": added, "removed": removed}})
+            found = client.at("references", self.robot, *place, context={"includeDeclaration": True})
+            self.assertEqual(len({item["uri"] for item in found}), count)
+            edit = client.at("rename", self.robot, *place, newName="GO")
+            self.assertEqual(len(edit["documentChanges"]), count)
+
     def test_random_edits_end_as_a_fresh_lint(self):
         draw = random.Random(5)
         client = self.start()
@@ -376,7 +469,6 @@ class Findings(LspTest):
             begin = draw.randrange(len(text) + 1)
             end = min(len(text), begin + draw.choice([0, 0, 1, 5, 40]))
             piece = draw.choice(pieces)
-            units = lambda part: len(part.encode("utf-16-le")) // 2
             place = lambda at: {"line": text.count("\n", 0, at),
                                 "character": units(text[text.rfind("\n", 0, at) + 1:at])}
             client.change(path, version, {"range": {"start": place(begin), "end": place(end)}, "text": piece})
@@ -491,6 +583,19 @@ class Names(LspTest):
         self.assertIn("not valid YAML", answer["error"]["message"])
 
 
+    def test_names_where_the_catalog_has_errors(self):
+        client = self.start()
+        client.open(self.robot, ROBOT.replace("task: LOCALIZE}]", "task: LOCALISE}]"))
+        client.settle()
+        line, column = self.place_of(MISSION, "start: DRIVE", "DRIVE")
+        found = client.at("references", self.mission, line, column, context={"includeDeclaration": False})
+        self.assertEqual({item["uri"] for item in found}, {*map(uri_of, (self.robot, self.mission, self.properties))})
+        answer = client.try_ask("textDocument/rename", {
+            "textDocument": {"uri": uri_of(self.mission)}, "newName": "GO",
+            "position": {"line": line, "character": column}})
+        self.assertIn("the catalog has errors", answer["error"]["message"])
+
+
 class HalfWritten(LspTest):
     def labels(self, client, path, text, version):
         """What is offered at the end of the text."""
@@ -519,6 +624,64 @@ class HalfWritten(LspTest):
         self.assertIn("DRIVE", self.labels(client, self.robot, ROBOT.replace("tasks:", "- {behavior: X, task: "), 2)
                       | self.labels(client, self.robot, ROBOT[:ROBOT.index("tasks:")] + "- {behavior: X, task: ", 3))
 
+    def test_names(self):
+        """In a text that does not parse they are where that text has them."""
+        client = self.start()
+        client.open(self.robot)
+        client.open(self.mission)
+        before = {method: client.of(method, self.robot) for method in ("documentSymbol",)}
+        task = Names.place_of(self, ROBOT, "- {task: DRIVE", "DRIVE")
+        asked = {"includeDeclaration": True}
+        lines = lambda found: [(item["range"]["start"]["line"], item["range"]["start"]["character"]) for item in found]
+        highlights = lines(client.at("documentHighlight", self.robot, *task))
+        references = client.at("references", self.robot, *task, context=asked)
+        moved = "# \U0001F422\n" + ROBOT
+        for version, (text, shift) in enumerate(((ROBOT + "- {task: X, ", 0), (moved + "- {task: X, ", 1),
+                                                 (moved.replace("task: DRIVE, suit", "task: DIVE, suit") + "'", 1)), 2):
+            client.change(self.robot, version, {"text": text})
+            place = (task[0] + shift, task[1])
+            kept = [(line + shift, column) for line, column in highlights
+                    if text.splitlines()[line + shift][column:].startswith("DRIVE")]
+            self.assertEqual(len(kept), 3 - text.count("DIVE"))
+            self.assertEqual(lines(client.at("documentHighlight", self.robot, *place)), kept)
+            for path, at in ((self.robot, place), (self.mission, Names.place_of(self, MISSION, "start: DRIVE", "DRIVE"))):
+                found = client.at("definition", path, *at)
+                self.assertEqual((found["uri"], lines([found])), (uri_of(self.robot), [place]))
+                found = client.at("references", path, *at, context=asked)
+                self.assertEqual(lines(item for item in found if item["uri"] == uri_of(self.robot)), kept)
+                self.assertEqual([item for item in found if item["uri"] != uri_of(self.robot)],
+                                 [item for item in references if item["uri"] != uri_of(self.robot)])
+                answer = client.try_ask("textDocument/rename", {
+                    "textDocument": {"uri": uri_of(path)}, "newName": "GO",
+                    "position": {"line": at[0], "character": at[1]}})
+                self.assertRegex(answer["error"]["message"], "not valid YAML|the catalog has errors")
+            value = client.at("definition", self.mission, *Names.place_of(self, MISSION, "AIR: dusty", "dusty"))
+            self.assertEqual(lines([value]), [(1 + shift, ROBOT.splitlines()[1].index("dusty"))])
+            symbols = client.of("documentSymbol", self.robot)
+            self.assertEqual([symbol["name"] for symbol in symbols], ["situation", "behaviors", "tasks"])
+            names = [[child["name"] for child in symbol["children"]] for symbol in symbols]
+            self.assertEqual(names[:2], [["AIR"], ["DRIVE_FAST", "DRIVE_SLOWLY", "LIDAR"]])
+            self.assertEqual(names[2][:2], ["DRIVE", "LOCALIZE"])
+            self.assertEqual(lines(symbols[1]["children"]),
+                             [(line + shift, column) for line, column in lines(before["documentSymbol"][1]["children"])])
+        # A half-written mission.
+        text = MISSION + "- start: DRIVE\n  parameters: {"
+        client.change(self.mission, 2, {"text": text})
+        self.assertEqual(lines(client.at("documentHighlight", self.mission, 6, 9)), [(2, 9), (5, 21), (6, 9)])
+        self.assertEqual(client.of("documentSymbol", self.mission)[1]["children"][-1]["name"], "start: DRIVE")
+
+    def test_names_in_what_nobody_writes(self):
+        client = self.start()
+        client.open(self.robot)
+        long, many = "K" * 1000000, ", ".join(["a"] * 200000)
+        for version, text in enumerate((f"tasks:\n- {long}: [{many}\n", "tasks: " + "[" * 150 + many,
+                                        f"tasks: [{{x: [{many}]}}, "), 2):
+            client.change(self.robot, version, {"text": text})
+            symbols = client.of("documentSymbol", self.robot)
+            self.assertEqual(symbols[0]["name"], "tasks")
+            for method in ("definition", "documentHighlight"):
+                self.assertFalse(client.at(method, self.robot, 0, len(text) // 2))
+
     def test_hover_explains_the_rule(self):
         client = self.start()
         client.open(self.robot, ROBOT.replace("task: LOCALIZE}]", "task: LOCALISE}]"))
@@ -527,20 +690,44 @@ class HalfWritten(LspTest):
         self.assertIn("undefined-task", client.at("hover", self.robot, line, column + 1)["contents"]["value"])
 
     def test_prefixes(self):
-        """As if somebody wrote them: each prefix has findings, and answers at its end. In a night all of them."""
-        step = 1 if os.environ.get("CBC_NIGHT") else 211
-        for source in sorted(SOURCE.glob("catalogs/*.yaml")):
+        """As if somebody wrote them, beside their catalogs: each prefix has findings, and answers at its end and at
+        some place before. In a night all of them."""
+        step = 1 if os.environ.get("CBC_NIGHT") else 307
+        draw = random.Random(7)
+        folder = self.folder / "corpus"
+        for source in sorted((SOURCE / "catalogs").glob("*.yaml")) + sorted((SOURCE / "catalogs" / "missions").glob("*.yaml")):
             text = source.read_text()
-            path = self.write(source.name, "")
-            with Client(self.folder) as client:
+            path = folder / source.relative_to(SOURCE / "catalogs")
+            path.parent.mkdir(parents=True)
+            named = re.match("catalog: (.*)", text)
+            if named:
+                shutil.copy(source.parent / named[1], path.parent / named[1])
+            path.write_text("")
+            with Client(folder) as client:
                 client.open(path, "")
                 for version, end in enumerate(range(0, len(text), step), 2):
                     self.labels(client, path, text[:end], version)
-                    client.of("documentSymbol", path)
+                    self.ask_all(client, path, text[:end], draw.randrange(end + 1))
+                path.write_text(text)
                 client.change(path, 10**6, {"text": text})
-                client.settle()
-                self.assertEqual(self.messages(client, path), [])
-            path.unlink()
+                if named:
+                    self.ask_all(client, path, text, text.index(named[1]))
+                    self.assertTrue(client.of("inlayHint", path, range=span(0, 0, 9999, 0)) or "properties:" in text)
+                self.check_equal(client, folder)
+            shutil.rmtree(folder)
+
+    def ask_all(self, client, path, text, offset):
+        line, column = text.count("\n", 0, offset), units(text[text.rfind("\n", 0, offset) + 1:offset])
+        lines = text.split("\n")
+        client.at("definition", path, line, column)
+        client.of("documentSymbol", path)
+        client.of("inlayHint", path, range=span(0, 0, 9999, 0))
+        references = client.at("references", path, line, column, context={"includeDeclaration": True})
+        found = client.at("documentHighlight", path, line, column)
+        found += [item for item in references if item["uri"] == uri_of(path)]
+        words = {lines[at["start"]["line"]][at["start"]["character"]:at["end"]["character"]].strip("\"'")
+                 for at in (item["range"] for item in found)}
+        self.assertLessEqual(len(words), 1)
 
 
 class WholeFiles(LspTest):
@@ -566,6 +753,40 @@ class WholeFiles(LspTest):
         self.assertEqual(labels[0][1], "+LIDAR +DRIVE_FAST")
         self.assertEqual(labels[1][1], "✓")
         self.assertTrue(labels[3][1].startswith("✗"))
+        self.assertNotIn("tooltip", hints[1])
+        # Why it fails, as the command says it.
+        said = html.unescape(run_cbc("solve", "--format", "junit", self.mission)[1])
+        self.assertGreater(hints[3]["tooltip"].count("\n"), 1)
+        self.assertIn(hints[3]["tooltip"], said)
+        self.assertIn("AIR is dusty", hints[3]["tooltip"])
+
+    def test_hints_of_what_is_rejected(self):
+        client = self.start()
+        client.open(self.mission, MISSION.replace("start: DRIVE", "fault: LIDAR\n- start: LOCALIZE"))
+        hint = client.of("inlayHint", self.mission, range=span(3, 0, 4, 0))[0]
+        self.assertTrue(hint["label"].startswith("rejected"), hint["label"])
+        self.assertIn("LIDAR is faulty", hint["tooltip"])
+
+    def test_hints_are_short(self):
+        client = self.start()
+        name = "D" * 5000
+        robot = ROBOT.replace("- {task: DRIVE}", "- {task: DRIVE, timeout: 30}").replace("DRIVE_FAST", name)
+        client.open(self.robot, robot + "exclusivity_constraints: []\n")
+        events = "".join(f"- {{at: {at}, start: DRIVE}}\n" for at in range(100, 100000, 100))
+        client.open(self.mission, "catalog: robot.yaml\nevents:\n- start: DRIVE\n"
+                    f"- expect: {{active: []}}\n{events}- expect: {{active: []}}\n")
+        hints = client.of("inlayHint", self.mission, range=span(0, 0, 9999, 0))
+        self.assertGreater(len(hints), 100)
+        for hint in hints:
+            self.assertLess(len(hint["label"]), 500)
+            self.assertLessEqual(len(hint.get("tooltip", "").splitlines()), 21)
+        # One event after which many others happen by themselves.
+        catalog = (SOURCE / "src" / "page" / "play" / "first.yaml").read_text()
+        client.open(self.robot, catalog, 2)
+        client.open(self.mission, "catalog: robot.yaml\nevents:\n- start: DRIVE\n- {at: 999999999, start: CHARGE}\n", 2)
+        hints = client.of("inlayHint", self.mission, range=span(0, 0, 99, 0))
+        self.assertTrue(any(re.search("; and [0-9]+ more$", hint["label"]) for hint in hints))
+        self.assertLess(max(len(hint["label"]) for hint in hints), 500)
 
     def test_lenses(self):
         client = self.start()
@@ -587,6 +808,16 @@ class WholeFiles(LspTest):
         words = lenses[0]["command"]["arguments"][0]
         for wrong in ({"command": "cbc.run", "arguments": [words + ["--html", "page.html"]]}, {"command": "rm", "arguments": [["solve"]]}, {"command": "cbc.run", "arguments": [["graph"]]}):
             self.assertIn("error", client.try_ask("workspace/executeCommand", wrong))
+
+    def test_lenses_of_odd_names(self):
+        client = self.start()
+        client.open("untitled:Untitled-1", MISSION)
+        self.assertEqual(client.of("codeLens", "untitled:Untitled-1"), [])
+        mission = self.write("-m.yaml", MISSION.split("\n", 1)[1])
+        client.open(mission)
+        lens = client.of("codeLens", mission)[0]["command"]
+        self.assertEqual(lens["title"], "run: cbc solve robot.yaml ./-m.yaml")
+        self.assertIn("expectations: 1 passed, 1 failed", run_cbc(*lens["title"].split()[2:], cwd=self.folder)[1])
 
     def test_what_runs_ends_with_the_server(self):
         long = self.write("long.properties.yaml", f"catalog: {SOURCE}/catalogs/hospital.yaml\n"

@@ -6,6 +6,7 @@
 #include "core/support/wording.h"
 #include "core/yaml/source.h"
 #include "lsp/features/features.h"
+#include "lsp/language/context.h"
 
 namespace cbc::lsp {
 namespace {
@@ -25,76 +26,106 @@ int symbol_kind(std::string_view key) {
   return symbol_array;
 }
 
-/// Nodes deeper than this in an entry are not looked at for where it ends.
-constexpr std::size_t most_depth = 64;
+/// Of an entry, more are not looked at for what it is called.
+constexpr std::size_t most_scalars = 1000;
 
-/// Where the last scalar of a node ends. An alias may stand before its place.
-Position end_of(const yaml::Node& node, std::size_t depth = 0) {
-  Position end = node.range.end;
-  if (depth == most_depth || node.shared) return end;
-  for (const yaml::Node* const item : node.items) end = std::max(end, end_of(*item, depth + 1));
-  for (const auto& [key, value] : node.entries) {
-    end = std::max({end, key->range.end, end_of(*value, depth + 1)});
-  }
-  return end;
-}
+/// The scalars of an entry of a list.
+using Entry = std::vector<Context>;
 
-std::string text_of(const yaml::Node& node) {
-  if (node.kind == yaml::Kind::scalar) return node.text;
-  std::vector<std::string> texts;
-  for (const yaml::Node* const item : node.items) texts.push_back(text_of(*item));
-  return node.items.empty() ? std::string() : "[" + join(texts, ", ") + "]";
-}
-
-/// What an entry of a list is called: its name, or else its first key and value.
-std::string title_of(const yaml::Node& item) {
-  if (item.entries.empty()) return text_of(item);
+/// What an entry is called, and where that stands: its name, or else its first key and value.
+/// `depth`: of the list.
+std::pair<std::string, const Context*> title_of(const Entry& entry, std::size_t depth) {
   for (const std::string_view key : {"name", "behavior", "task", "variable"}) {
-    const yaml::Node* const value = item.find(key);
-    if (value != nullptr && !value->text.empty()) return value->text;
+    for (const Context& scalar : entry) {
+      const bool is_value = !scalar.is_key && scalar.path.size() == depth + 1 && scalar.key == key;
+      if (is_value && !scalar.text.empty()) return {scalar.text, &scalar};
+    }
   }
-  const auto& [key, value] = item.entries.front();
-  const std::string text = text_of(*value);
-  return text.empty() ? key->text : key->text + ": " + text;
+  const Context& first = entry.front();
+  const bool has_key = first.is_key && first.path.size() == depth + 1;
+  std::string value;
+  std::vector<std::string> list;
+  for (const Context& scalar : entry) {
+    const std::size_t level = scalar.path.size() - depth - (has_key ? 1 : 0);
+    const bool is_in_list = scalar.is_item && level == 1;
+    if (has_key ? level == 0 && scalar.key == first.text : scalar.is_item && level == 0) {
+      if (value.empty()) value = scalar.text;
+    } else if (is_in_list && (!has_key || scalar.path.back() == first.text)) {
+      list.push_back(scalar.text);
+    }
+  }
+  if (!list.empty()) value = "[" + join(list, ", ") + "]";
+  if (!has_key) return {value, &first};
+  return {value.empty() ? first.text : first.text + ": " + value, &first};
 }
 
+/// The keys of a file, and the entries of their lists; also of a text that does not parse.
 class SymbolList {
  public:
   explicit SymbolList(const File& file) : text_(*file.text) {
-    for (const auto& [key, value] : file.input->document->root().entries) {
-      Json children = Json::array();
-      for (const yaml::Node* const item : value->items) {
-        children.push_back(symbol(title_of(*item), symbol_kind(key->text), *item, end_of(*item)));
-      }
-      Json section =
-          symbol(key->text, symbol_kind(key->text), *key, std::max(key->range.end, end_of(*value)));
-      if (!children.empty()) section["children"] = std::move(children);
-      symbols_.push_back(std::move(section));
-    }
-    // A script may be a list of its events.
-    for (const yaml::Node* const item : file.input->document->root().items) {
-      symbols_.push_back(symbol(title_of(*item), symbol_event, *item, end_of(*item)));
-    }
+    visit_scalars(text_.content(), [this](const Context& scalar) { take(scalar); });
+    finish_entry();
   }
 
   [[nodiscard]] Json release() { return std::move(symbols_); }
 
  private:
-  [[nodiscard]] Json symbol(const std::string& name, int kind, const yaml::Node& at,
-                            const Position& end) const {
+  void take(const Context& scalar) {
+    const std::vector<std::string>& path = scalar.path;
+    // A script may be a list of its events.
+    const bool is_list = path.empty() ? scalar.is_item : path.front().empty();
+    const std::size_t depth = is_list ? 0 : 1;
+    const bool is_in_entry =
+        path.size() == depth ? scalar.is_item : path.size() > depth && path[depth].empty();
+    if (!is_in_entry || entry_.empty() || entry_.front().entry != scalar.entry) finish_entry();
+    if (path.empty() && scalar.is_key && !scalar.text.empty()) {
+      symbols_.push_back(symbol(scalar.text, symbol_kind(scalar.text), scalar, scalar.begin));
+      section_ = scalar.text;
+    } else if (!is_list && !is_in_entry && !symbols_.empty()) {
+      symbols_.back()["range"]["end"] = to_json(text_.place_of(scalar.end));
+    } else if (is_in_entry) {
+      if (entry_.size() < most_scalars) entry_.push_back(scalar);
+      end_ = scalar.end;
+      depth_ = depth;
+    }
+  }
+
+  void finish_entry() {
+    if (entry_.empty()) return;
+    const auto [title, place] = title_of(entry_, depth_);
+    const bool is_event = depth_ == 0;
+    // From its bracket on, if it has one.
+    const std::string& text = text_.content();
+    const std::size_t content = text.find_first_not_of(" \t\r\n", entry_.front().entry);
+    const bool is_comment = content < text.size() && text[content] == '#';
+    Json found = symbol(title, is_event ? symbol_event : symbol_kind(section_), *place,
+                        is_comment ? entry_.front().begin : content);
+    found["range"]["end"] = to_json(text_.place_of(end_));
+    if (is_event || symbols_.empty()) {
+      symbols_.push_back(std::move(found));
+    } else {
+      symbols_.back()["range"]["end"] = found["range"]["end"];
+      symbols_.back()["children"].push_back(std::move(found));
+    }
+    entry_.clear();
+  }
+
+  /// A symbol that is called by a scalar.
+  [[nodiscard]] Json symbol(const std::string& name, int kind, const Context& place,
+                            std::size_t begin) const {
     return {{"name", name.empty() ? std::string("(no name)") : name},
             {"kind", kind},
-            {"range", to_json(text_.range_of({at.range.begin, end}))},
-            {"selectionRange", to_json(text_.range_of(at.range))}};
+            {"range", range_json(text_, begin, place.end)},
+            {"selectionRange", range_json(text_, place.begin, place.end)}};
   }
 
   const Text& text_;
+  std::string section_;
+  Entry entry_;
+  std::size_t end_ = 0;    ///< of the entry
+  std::size_t depth_ = 0;  ///< of the list of the entry
   Json symbols_ = Json::array();
 };
-
-}  // namespace
-
-namespace {
 
 /// Without a tree, each says where it stands.
 void flatten(const Json& symbols, const std::string& container, const std::string& uri,
@@ -111,7 +142,7 @@ void flatten(const Json& symbols, const std::string& container, const std::strin
 }  // namespace
 
 Json list_symbols(const File& file, const Client& client) {
-  if (file.input == nullptr || file.input->document == nullptr) return Json::array();
+  if (file.text == nullptr) return Json::array();
   if (file.kind == cli::FileKind::other) return Json::array();
   Json symbols = SymbolList(file).release();
   if (client.has_symbol_trees) return symbols;

@@ -3,7 +3,10 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "core/report/failure_explanation.h"
+#include "core/report/layout.h"
 #include "core/report/reason_words.h"
 #include "core/script/reader.h"
 #include "core/script/runner.h"
@@ -19,26 +22,33 @@ using Clock = std::chrono::steady_clock;
 
 /// A mission that takes longer has no hints after that.
 constexpr auto longest_run = std::chrono::milliseconds(200);
-constexpr std::size_t most_changes = 6;  // in one hint
+constexpr std::size_t most_events = 4;    // in one hint
+constexpr std::size_t most_changes = 6;   // of one event
+constexpr std::size_t most_columns = 96;  // of what is said of one event
+constexpr std::size_t most_lines = 20;    // on hover
 
 /// By line of the script, what happens there.
 class HintedRun final : public RunListener {
  public:
   struct Hint {
     std::string label;
-    std::string reason;  ///< on hover
+    std::string reason;      ///< on hover
+    std::size_t events = 0;  ///< of which only the first ones are in the label
   };
 
-  explicit HintedRun(const CompiledCatalog& catalog) : catalog_(catalog) {}
+  HintedRun(const CompiledCatalog& catalog, const Script& script) : catalog_(catalog) {
+    explanation_.begin_run(catalog, script);
+  }
 
-  void on_event(const EventRecord& record, const Step* step, const State& /*state*/) override {
+  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+    explanation_.add(record, step, state);
     if (step != nullptr) present_ = &hints_[step->range.begin];
     if (present_ == nullptr) return;
     std::string words = step == nullptr ? std::string("then") : std::string();
     const bool is_rejected = record.outcome == Outcome::rejected;
     if (step != nullptr && is_rejected) {
       words = "rejected";
-      present_->reason = join(describe_rejection(catalog_, record), "\n");
+      present_->reason = tooltip(describe_rejection(catalog_, record));
     }
     std::size_t count = 0;
     std::string changes;
@@ -49,23 +59,36 @@ class HintedRun final : public RunListener {
                  catalog_.name_of_behavior(change.behavior), change.success ? "" : " (fails)");
     }
     if (count > most_changes) changes += concat(" and ", count - most_changes, " more");
-    if (step == nullptr && changes.empty()) return;
+    if ((step == nullptr && changes.empty()) || ++present_->events > most_events) return;
     if (!changes.empty()) words += concat(words.empty() ? "" : " ", changes);
     if (words.empty()) words = "no change";
-    present_->label += concat(present_->label.empty() ? "" : "; ", words);
+    present_->label += concat(present_->label.empty() ? "" : "; ", shorten(words, most_columns));
   }
 
   void on_success(const Success& success) override { hints_[success.step.range.begin].label = "✓"; }
 
   void on_failure(const Failure& failure) override {
     Hint& hint = hints_[failure.range.begin];
-    hint.label = concat("✗ ", failure.message);
+    hint.label = concat("✗ ", shorten(failure.message, most_columns));
+    std::vector<std::string> lines = explanation_.tell(failure);
+    lines.insert(lines.begin(), failure.message);
+    hint.reason = tooltip(std::move(lines));
   }
 
   [[nodiscard]] const std::map<Position, Hint>& hints() const { return hints_; }
 
  private:
+  static std::string tooltip(std::vector<std::string> lines) {
+    if (lines.size() > most_lines) {
+      const std::size_t more = lines.size() - most_lines;
+      lines.resize(most_lines);
+      lines.push_back(concat("and ", quantity(more, "more line")));
+    }
+    return join(lines, "\n");
+  }
+
   const CompiledCatalog& catalog_;
+  FailureExplanation explanation_;
   std::map<Position, Hint> hints_;
   Hint* present_ = nullptr;
 };
@@ -87,7 +110,8 @@ Json list_hints(const Workspace& workspace, const File& file, std::size_t begin,
   CoordinatorOptions options;
   options.is_stopped = [deadline] { return Clock::now() >= deadline; };
   options.search.is_stopped = options.is_stopped;
-  HintedRun run(compiled);
+  options.last_decisions = true;
+  HintedRun run(compiled, *script);
   Runner runner(compiled, options_of(*script, options), run);
   runner.begin(script->situation);
   for (const Step& step : script->steps) {
@@ -98,9 +122,10 @@ Json list_hints(const Workspace& workspace, const File& file, std::size_t begin,
     if (from < begin || from > end) continue;
     std::size_t at = yaml::end_of_line(file.text->content(), from);
     if (at > from && file.text->content()[at - 1] == '\r') --at;
-    Json entry = {{"position", to_json(file.text->place_of(at))},
-                  {"label", hint.label},
-                  {"paddingLeft", true}};
+    std::string label = hint.label;
+    if (hint.events > most_events) label += concat("; and ", hint.events - most_events, " more");
+    Json entry = {
+        {"position", to_json(file.text->place_of(at))}, {"label", label}, {"paddingLeft", true}};
     if (!hint.reason.empty()) entry["tooltip"] = hint.reason;
     hints.push_back(std::move(entry));
   }

@@ -69,7 +69,8 @@ class LensList {
 
   [[nodiscard]] std::string short_name(const std::string& path) const {
     if (file_.folder.empty()) return path;
-    return std::filesystem::path(path).lexically_relative(file_.folder).string();
+    const std::string name = std::filesystem::path(path).lexically_relative(file_.folder).string();
+    return name.starts_with('-') ? "./" + name : name;  // it is no option
   }
 
   const File& file_;
@@ -79,6 +80,7 @@ class LensList {
 }  // namespace
 
 Json list_lenses(const File& file) {
+  if (!file.path.starts_with('/')) return Json::array();  // no program could read it
   if (file.input == nullptr || file.input->document == nullptr) return Json::array();
   return LensList(file).release();
 }

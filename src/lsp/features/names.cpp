@@ -11,10 +11,19 @@
 namespace cbc::lsp {
 namespace {
 
-/// The names in a file, where they stand.
-std::vector<NameAt> names_in(const File& file) {
+/// The names in a file, where they stand: as its reader has found them, or else as a text that is
+/// not understood looks.
+std::vector<NameAt> names_in(const Workspace& workspace, const File& file) {
   std::vector<NameAt> names;
-  if (file.input == nullptr || file.input->document == nullptr) return names;
+  if (file.text == nullptr) return names;
+  if (file.input->document == nullptr || file.names.empty()) {
+    const Catalog* const catalog = workspace.known_catalog(file);
+    visit_scalars(file.text->content(), [&](const Context& context) {
+      const auto kind = name_kind_at(context, file.kind, catalog);
+      if (kind) names.push_back({*kind, context.text, context.begin, context.end});
+    });
+    return names;
+  }
   std::map<Position, NameKind> kinds;
   for (const NamePlace& place : file.names) kinds.emplace(place.range.begin, place.kind);
   for (const yaml::Node& node : file.input->document->nodes()) {
@@ -27,13 +36,32 @@ std::vector<NameAt> names_in(const File& file) {
   return names;
 }
 
+struct Occurrence {
+  const File* file = nullptr;
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// Where a name stands in one file.
+std::vector<Occurrence> occurrences_in(const Workspace& workspace, const File& file,
+                                       const NameAt& name) {
+  std::vector<Occurrence> found;
+  for (const NameAt& other : names_in(workspace, file)) {
+    if (other.kind == name.kind && other.name == name.name) {
+      found.push_back({&file, other.begin, other.end});
+    }
+  }
+  return found;
+}
+
 /// What has names of the catalog: itself, what is about it, and its settings.
 std::vector<const File*> files_with_names(const Workspace& workspace, const File& catalog) {
   std::vector<const File*> files;
   const std::optional<std::string> settings = workspace.settings_file_of(catalog.path);
   for (const auto& [path, file] : workspace.files()) {
     const bool is_settings = file.kind == cli::FileKind::settings && settings == path;
-    if (file.text != nullptr && (is_settings || workspace.catalog_of(file) == &catalog)) {
+    const bool is_meant = file.is_shown() && workspace.catalog_of(file) == &catalog;
+    if (file.text != nullptr && (is_settings || is_meant || &file == &catalog)) {
       files.push_back(&file);
     }
   }
@@ -45,112 +73,93 @@ std::vector<const File*> files_with_names(const Workspace& workspace, const File
 const File* catalog_with(const Cursor& cursor, const NameAt& name) {
   if (cursor.file.kind != cli::FileKind::settings) return cursor.workspace.catalog_of(cursor.file);
   for (const auto& [path, file] : cursor.workspace.files()) {
-    const bool is_catalog = file.kind == cli::FileKind::catalog;
+    const bool is_catalog = file.kind == cli::FileKind::catalog && file.is_shown();
     if (!is_catalog || cursor.workspace.settings_file_of(path) != cursor.file.path) {
       continue;
     }
-    for (const NameAt& other : names_in(file)) {
-      if (other.kind == name.kind && other.name == name.name) return &file;
-    }
+    if (!occurrences_in(cursor.workspace, file, name).empty()) return &file;
   }
   return nullptr;
 }
 
-struct Occurrence {
-  const File* file = nullptr;
-  std::size_t begin = 0;
-  std::size_t end = 0;
-};
-
-std::vector<Occurrence> occurrences_of(const Workspace& workspace, const File& catalog,
-                                       const NameAt& name) {
-  std::vector<Occurrence> found;
-  for (const File* const file : files_with_names(workspace, catalog)) {
-    for (const NameAt& other : names_in(*file)) {
-      if (other.kind == name.kind && other.name == name.name) {
-        found.push_back({file, other.begin, other.end});
-      }
-    }
-  }
-  return found;
+/// The entry of a task, behavior or variable in a catalog.
+std::optional<Context> find_entry(const File& catalog, NameKind kind, const std::string& name) {
+  const bool is_task = kind == NameKind::task;
+  const bool is_behavior = kind == NameKind::behavior;
+  const std::vector<std::string> path = {is_task       ? "tasks"
+                                         : is_behavior ? "behaviors"
+                                                       : "situation",
+                                         ""};
+  const std::string_view key = is_task ? "task" : is_behavior ? "behavior" : "variable";
+  std::optional<Context> entry;
+  visit_scalars(catalog.text->content(), [&](const Context& context) {
+    const bool is_meant = !entry && context.key == key && context.text == name;
+    if (is_meant && context.path == path) entry = context;
+  });
+  return entry;
 }
 
-/// Where a name is defined: a task in its own entry, if it has one.
-std::optional<Range> place_of_definition(const File& catalog, const NameAt& name) {
-  if (catalog.checked == nullptr || catalog.input->document == nullptr) return std::nullopt;
-  const yaml::Node* const tasks = catalog.input->document->root().find("tasks");
-  if (name.kind == NameKind::task && tasks != nullptr) {
-    for (const yaml::Node* const item : tasks->items) {
-      const yaml::Node* const task = item->find("task");
-      if (task != nullptr && task->text == name.name) return task->range;
-    }
+/// Where a name is defined: in its own entry, or else where it stands first, as a task may have no
+/// entry.
+std::optional<Occurrence> place_of_definition(const Workspace& workspace, const File& catalog,
+                                              const NameAt& name) {
+  if (catalog.text == nullptr) return std::nullopt;
+  if (const auto entry = find_entry(catalog, name.kind, name.name)) {
+    return Occurrence{&catalog, entry->begin, entry->end};
   }
-  return place_of_name(catalog.checked->reading.catalog, name.kind, name.name);
+  const auto found = occurrences_in(workspace, catalog, name);
+  return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
 std::optional<Occurrence> find_defined(const Cursor& cursor, const NameAt& name) {
   const File* const catalog = catalog_with(cursor, name);
   if (catalog == nullptr) return std::nullopt;
-  const std::optional<Range> place = place_of_definition(*catalog, name);
-  if (!place) return std::nullopt;
-  return Occurrence{catalog, catalog->text->offset_of(place->begin),
-                    catalog->text->offset_of(place->end)};
+  return place_of_definition(cursor.workspace, *catalog, name);
 }
 
 }  // namespace
 
 std::optional<NameAt> find_name(const Cursor& cursor) {
-  const File& file = cursor.file;
-  if (file.text == nullptr) return std::nullopt;
-  for (NameAt& name : names_in(file)) {
+  for (NameAt& name : names_in(cursor.workspace, cursor.file)) {
     if (name.begin <= cursor.offset && cursor.offset <= name.end) return std::move(name);
   }
-  if (file.input->document != nullptr && !file.names.empty()) return std::nullopt;
-  const Context context = context_at(file.text->content(), cursor.offset);
-  const std::optional<NameKind> kind =
-      name_kind_at(context, file.kind, cursor.workspace.known_catalog(file));
-  if (!kind || context.text.empty()) return std::nullopt;
-  return NameAt{*kind, context.text, context.begin, context.end};
+  return std::nullopt;
 }
 
 namespace {
 
-/// Where a catalog has a value of a variable; "true" of one without values is the variable itself.
-std::optional<Range> place_of_value(const File& catalog, const std::string& variable,
-                                    const std::string& value) {
-  const auto named = place_of_name(catalog.checked->reading.catalog, NameKind::variable, variable);
-  if (!named) return std::nullopt;
-  const yaml::Node* const situation = catalog.input->document->root().find("situation");
-  if (situation == nullptr) return named;
-  for (const yaml::Node* const item : situation->items) {
-    const yaml::Node* const name = item->find("variable");
-    const yaml::Node* const values = item->find("values");
-    if (name == nullptr || name->text != variable || values == nullptr) continue;
-    for (const yaml::Node* const one : values->items) {
-      if (one->text == value) return one->range;
-    }
-  }
-  return named;
-}
-
-/// Of what is no name of the whole catalog: a value of a variable, a parameter of a task.
-std::optional<Range> place_of_detail(const Context& context, const File& file,
-                                     const File& catalog) {
-  if (catalog.checked == nullptr || catalog.input->document == nullptr) return std::nullopt;
-  const Catalog& known = catalog.checked->reading.catalog;
+/// Of what is no name of the whole catalog: a value of a variable, a parameter of a task. "true" of
+/// a variable without values is the variable itself.
+std::optional<Occurrence> place_of_detail(const Context& context, const File& file,
+                                          const File& catalog, const Catalog& known) {
+  std::vector<std::string> path = {"tasks", "", "parameters", ""};
+  std::string_view key = "parameter";
+  std::string wanted = context.text;
+  std::optional<Context> entry;
   const auto owner = owner_at(context);
-  if (owner && find_variable(&known, owner->key) != nullptr) {
-    const auto names = names_of_keys(owner->path, file.kind);
-    if (names == Names::variable || names == Names::part) {
-      return place_of_value(catalog, owner->key, context.text);
+  const auto names = owner ? names_of_keys(owner->path, file.kind) : std::nullopt;
+  if (names == Names::variable || names == Names::part) {
+    path = {"situation", "", "values"};
+    key = "";
+    entry = find_entry(catalog, NameKind::variable, owner->key);
+  } else {
+    const auto& place = context.is_key || !owner ? context.path : owner->path;
+    if (!context.is_key && owner) wanted = owner->key;
+    if (parameters_at(context, place, file.kind, &known).empty()) return std::nullopt;
+    for (const auto& [outer, task] : context.outer) {
+      if (outer == "start") entry = find_entry(catalog, NameKind::task, task);
     }
   }
-  const auto& path = context.is_key ? context.path : owner ? owner->path : context.path;
-  const std::string& wanted = context.is_key || !owner ? context.text : owner->key;
-  for (const Parameter& parameter : parameters_at(context, path, file.kind, &known)) {
-    if (parameter.name == wanted) return parameter.range;
-  }
-  return std::nullopt;
+  if (!entry) return std::nullopt;
+  std::optional<Occurrence> found;
+  visit_scalars(catalog.text->content(), [&](const Context& other) {
+    const bool is_meant = !found && other.entry == entry->entry && other.text == wanted;
+    if (is_meant && !other.is_key && other.key == key && other.path == path) {
+      found = Occurrence{&catalog, other.begin, other.end};
+    }
+  });
+  if (!found && key.empty()) return Occurrence{&catalog, entry->begin, entry->end};
+  return found;
 }
 
 }  // namespace
@@ -165,12 +174,10 @@ Json find_definition(const Cursor& cursor) {
   const std::optional<NameAt> name = find_name(cursor);
   if (!name) {
     const File* const catalog = cursor.workspace.catalog_of(cursor.file);
-    const auto place = catalog == nullptr || context.text.empty()
-                           ? std::nullopt
-                           : place_of_detail(context, cursor.file, *catalog);
-    if (!place) return nullptr;
-    return location_json(*catalog, catalog->text->offset_of(place->begin),
-                         catalog->text->offset_of(place->end));
+    const Catalog* const known = cursor.workspace.known_catalog(cursor.file);
+    if (known == nullptr || catalog->text == nullptr || context.text.empty()) return nullptr;
+    const auto detail = place_of_detail(context, cursor.file, *catalog, *known);
+    return detail ? location_json(*detail->file, detail->begin, detail->end) : Json();
   }
   const auto found = find_defined(cursor, *name);
   return found ? location_json(*found->file, found->begin, found->end) : Json();
@@ -182,11 +189,12 @@ Json find_references(const Cursor& cursor, bool with_definition) {
   const File* const catalog = name ? catalog_with(cursor, *name) : nullptr;
   if (catalog == nullptr) return references;
   const auto defined = find_defined(cursor, *name);
-  for (const Occurrence& found : occurrences_of(cursor.workspace, *catalog, *name)) {
-    const bool is_definition =
-        defined && defined->file == found.file && defined->begin == found.begin;
-    if (is_definition && !with_definition) continue;
-    references.push_back(location_json(*found.file, found.begin, found.end));
+  for (const File* const file : files_with_names(cursor.workspace, *catalog)) {
+    for (const Occurrence& found : occurrences_in(cursor.workspace, *file, *name)) {
+      const bool is_definition = defined && defined->file == file && defined->begin == found.begin;
+      if (is_definition && !with_definition) continue;
+      references.push_back(location_json(*file, found.begin, found.end));
+    }
   }
   return references;
 }
@@ -195,9 +203,8 @@ Json find_highlights(const Cursor& cursor) {
   Json highlights = Json::array();
   const std::optional<NameAt> name = find_name(cursor);
   if (!name) return highlights;
-  for (const NameAt& other : names_in(cursor.file)) {
-    if (other.kind != name->kind || other.name != name->name) continue;
-    highlights.push_back({{"range", range_json(*cursor.file.text, other.begin, other.end)}});
+  for (const Occurrence& found : occurrences_in(cursor.workspace, cursor.file, *name)) {
+    highlights.push_back({{"range", range_json(*cursor.file.text, found.begin, found.end)}});
   }
   return highlights;
 }
@@ -215,21 +222,23 @@ Json rename(const Cursor& cursor, const std::string& new_name, const Client& cli
   if (catalog == nullptr) throw Refusal("there is no name of a task, behavior or variable here");
   const Renaming renaming{name->kind, name->name, new_name};
   if (const std::string fault = fault_of_new_name(renaming); !fault.empty()) throw Refusal(fault);
-  const auto place = place_of_definition(*catalog, {name->kind, new_name, 0, 0});
+  const auto has = [&](NameKind kind) {
+    return place_of_definition(cursor.workspace, *catalog, {kind, new_name, 0, 0}).has_value();
+  };
   // The situation names behaviors and variables alike.
   const bool is_task = name->kind == NameKind::task;
-  const auto alike = is_task ? std::nullopt
-                             : place_of_definition(
-                                   *catalog, {name->kind == NameKind::behavior ? NameKind::variable
-                                                                               : NameKind::behavior,
-                                              new_name, 0, 0});
-  if (place || alike) throw Refusal(concat("there is a ", quote(new_name), " already"));
+  if (is_task ? has(NameKind::task) : has(NameKind::behavior) || has(NameKind::variable))
+    throw Refusal(concat("there is a ", quote(new_name), " already"));
   Json changes = Json::array();
   for (const File* const file : files_with_names(cursor.workspace, *catalog)) {
     const std::string& text = file->text->content();
     if (file->input->document == nullptr) {
       if (text.find(name->name) == std::string::npos) continue;
       throw Refusal(concat(file->path, " is not valid YAML, and may have the name"));
+    }
+    if (file->names.empty() && !occurrences_in(cursor.workspace, *file, *name).empty()) {
+      throw Refusal(
+          concat(file->path, " has the name, and is not checked, as the catalog has errors"));
     }
     const RenamedText renamed = rename_in(text, *file->input->document, file->names, renaming);
     if (renamed.obstacle) {

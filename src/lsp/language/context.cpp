@@ -24,6 +24,10 @@ using yaml::Span;
 /// More than any text has that cbc reads; see yaml::maximum_depth.
 constexpr std::size_t most_frames = 200;
 
+// Where each scalar is visited, its path is made anew; so that takes little time in any text.
+constexpr std::size_t most_visited_frames = 64;
+constexpr std::size_t longest_visited_key = 1000;
+
 /// What comes next in a mapping or list.
 enum class Next : std::uint8_t { entry, value, nothing };
 
@@ -37,6 +41,7 @@ struct Frame {
   bool is_flow = false;
   bool is_implicit = false;  ///< a mapping without braces in a list in brackets
   std::size_t column = 0;    ///< of a block
+  std::size_t entry = 0;     ///< where the present entry of a list begins
   Next next = Next::entry;
   std::vector<Entry> entries = {};  ///< of a mapping
 };
@@ -45,6 +50,9 @@ class Scanner {
  public:
   Scanner(std::string_view text, std::size_t cursor)
       : text_(text), cursor_(std::min(cursor, text.size())) {}
+  /// There is no cursor, and each scalar is visited.
+  Scanner(std::string_view text, const std::function<void(const Context&)>& visit)
+      : text_(text), cursor_(text.npos), visit_(&visit) {}
 
   Context scan() && {
     at_ = text_.size() - utf8::without_byte_order_mark(text_).size();
@@ -242,7 +250,10 @@ class Scanner {
   // The cursor ------------------------------------------------------------------------------------
 
   [[nodiscard]] std::string step_of(const Frame& frame) const {
-    return frame.is_list || frame.entries.empty() ? "" : text_of(frame.entries.back().key);
+    if (frame.is_list || frame.entries.empty()) return {};
+    const Span& key = frame.entries.back().key;
+    const bool is_kept = visit_ == nullptr || key.end - key.begin <= longest_visited_key;
+    return is_kept ? text_of(key) : "...";
   }
 
   /// Fills in the path to a frame, and what is around it.
@@ -252,8 +263,11 @@ class Scanner {
     for (std::size_t outer = 0; outer < frame; ++outer) {
       result_.path.push_back(step_of(frames_[outer]));
     }
-    if (frame > 0) note_outer(frames_[frame - 1]);
+    if (frame > 0 && visit_ == nullptr) note_outer(frames_[frame - 1]);
     result_.is_flow = frame < frames_.size() && frames_[frame].is_flow;
+    const auto list = std::find_if(frames_.begin(), frames_.end(),
+                                   [](const Frame& outer) { return outer.is_list; });
+    if (list != frames_.end()) result_.entry = list->entry;
     result_.is_json = is_json_;
     result_.begin = result_.end = cursor_;
     own_key_ = text_.size();
@@ -289,13 +303,18 @@ class Scanner {
 
   /// Returns whether the cursor is in the scalar.
   bool note_scalar(const Span& span, bool is_key, bool is_open) {
-    if (cursor_ < span.begin || cursor_ > span.end || is_over_) return false;
+    const bool is_here = visit_ == nullptr ? cursor_ >= span.begin && cursor_ <= span.end
+                                           : frames_.size() <= most_visited_frames;
+    if (!is_here || is_over_) return false;
     note_place(is_key, is_open);
     result_.begin = span.begin;
     result_.end = span.end;
     if (byte(span.begin) != '*') result_.text = text_of(span);  // an alias is no text of its own
     if (is_key && watched_ > 0) own_key_ = span.begin;
-    return true;
+    if (visit_ == nullptr) return true;
+    watched_ = 0;
+    (*visit_)(result_);
+    return false;
   }
 
   /// The bytes from `gap_` to `end` have nothing but blanks.
@@ -382,6 +401,7 @@ class Scanner {
                          frames_.back().column == column;
     if (!is_next) push({.is_list = true, .column = column});
     frames_.back().next = Next::entry;
+    frames_.back().entry = at_ + 1;
   }
 
   /// What follows the dashes of a line.
@@ -450,7 +470,7 @@ class Scanner {
   // Flow ------------------------------------------------------------------------------------------
 
   void open_flow() {
-    push({.is_list = byte(at_) == '[', .is_flow = true, .column = at_ - line_});
+    push({.is_list = byte(at_) == '[', .is_flow = true, .column = at_ - line_, .entry = at_ + 1});
     gap_ = ++at_;
   }
 
@@ -492,7 +512,7 @@ class Scanner {
     } else if (here == ',') {
       while (frames_.back().is_implicit) pop();
       frames_.back().next = Next::entry;
-      gap_ = ++at_;
+      frames_.back().entry = gap_ = ++at_;
     } else if (is_colon(at_, is_after_quote_)) {
       if (!frames_.back().is_list && !frames_.back().entries.empty()) {
         frames_.back().next = Next::value;
@@ -526,6 +546,7 @@ class Scanner {
 
   const std::string_view text_;
   std::size_t cursor_;
+  const std::function<void(const Context&)>* visit_ = nullptr;
   std::size_t at_ = 0;
   std::size_t line_ = 0;  ///< where the line of `at_` begins
   std::size_t gap_ = 0;   ///< where the cursor may stand after the last token
@@ -545,6 +566,10 @@ class Scanner {
 
 Context context_at(std::string_view text, std::size_t offset) {
   return Scanner(text, offset).scan();
+}
+
+void visit_scalars(std::string_view text, const std::function<void(const Context&)>& visit) {
+  (void)Scanner(text, visit).scan();
 }
 
 }  // namespace cbc::lsp

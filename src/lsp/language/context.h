@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,8 +22,9 @@ struct Context {
   bool is_item = false;
   /// A value, or an item, that stands where a mapping in lines of its own may begin instead.
   bool is_open = false;
-  bool is_flow = false;  ///< the cursor is in brackets
-  bool is_json = false;  ///< the whole text is in brackets, with keys in double quotes
+  bool is_flow = false;   ///< the cursor is in brackets
+  std::size_t entry = 0;  ///< where the entry of the outermost list begins that has the cursor
+  bool is_json = false;   ///< the whole text is in brackets, with keys in double quotes
   /// Bytes of the scalar at the cursor, with its quotes; equal if there is none yet.
   std::size_t begin = 0;
   std::size_t end = 0;
@@ -39,5 +41,10 @@ struct Context {
 /// `offset` is a byte of the text, or its end. Takes a time linear in the text. Of a text with
 /// several documents, the one that has the cursor counts.
 [[nodiscard]] Context context_at(std::string_view text, std::size_t offset);
+
+/// The place of each scalar, in the order of the text, without `siblings` and `outer`. Passes over
+/// what is nested deeper than 64 mappings and lists; a key of more than 1000 bytes is "..." in
+/// paths.
+void visit_scalars(std::string_view text, const std::function<void(const Context&)>& visit);
 
 }  // namespace cbc::lsp

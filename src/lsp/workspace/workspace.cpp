@@ -6,10 +6,14 @@
 #include <utility>
 
 #include "core/compile/compile.h"
+#include "core/diagnostic/rules.h"
 #include "core/files/check_file.h"
 #include "core/files/file_search.h"
 #include "core/files/read.h"
+#include "core/script/reader.h"
+#include "core/support/wording.h"
 #include "lsp/protocol/uri.h"
+#include "runtime/base/text.h"
 
 namespace cbc::lsp {
 
@@ -49,6 +53,18 @@ bool is_hidden(const std::string& path, const std::string& folder) {
   return std::any_of(below.begin(), below.end(), [](const fs::path& part) {
     return part.string().starts_with('.') && part != settings_file_name;
   });
+}
+
+std::string_view name_of(const File& file) {
+  return file.kind == FileKind::properties ? "property file" : "script";
+}
+
+/// ": " and the reason, if there is one that the system gives.
+std::string why_unreadable(const std::string& path) {
+  if (const auto refusal = cli::find_refusal(path)) return concat(": ", *refusal);
+  std::error_code fault;
+  (void)fs::file_size(path, fault);
+  return fault ? concat(": ", fault.message()) : "";
 }
 
 bool has_text(const std::string& path) {
@@ -91,6 +107,7 @@ std::string Workspace::find_folder(const std::string& path) const {
 
 /// A file that is known is parsed when somebody needs that: while text is typed, nobody does.
 void Workspace::load(File& file, std::string text) {
+  if (file.text == nullptr) changed_catalogs_.insert(file.path);  // others may name it
   file.text = std::make_shared<const Text>(std::move(text), encoding_);
   file.is_parsed = false;
   checked_.erase(file.path);  // its findings are about another text
@@ -180,6 +197,7 @@ void Workspace::forget(const std::string& path) {
   if (found == files_.end()) return;
   File& file = found->second;
   const FileKind before = file.kind;
+  changed_catalogs_.insert(path);
   file.text.reset();
   file.input.reset();
   file.kind = FileKind::other;
@@ -220,7 +238,7 @@ void Workspace::note_change(const File& file, FileKind before) {
   }
   const bool was_catalog = before == FileKind::catalog;
   const bool is_catalog = file.kind == FileKind::catalog;
-  if (was_catalog || is_catalog) changed_catalogs_.insert(file.path);
+  if (is_catalog || before != file.kind) changed_catalogs_.insert(file.path);
   // Files that name no catalog are about the one beside them, and others may name this one.
   has_other_catalogs_ = has_other_catalogs_ || was_catalog != is_catalog;
 }
@@ -344,10 +362,35 @@ void Workspace::check_about(File& file) {
   }
   const File* const catalog = catalog_of(file);
   if (catalog == nullptr || catalog->checked == nullptr || catalog->checked->compiled == nullptr) {
-    return;
+    return note_missing_catalog(file);
   }
   file.findings =
       cli::check_about_catalog(*file.input, *catalog->checked->compiled, *settings, &file.names);
+}
+
+/// If the errors of the catalog are shown, they say enough, as somebody may be writing it.
+void Workspace::note_missing_catalog(File& file) const {
+  const yaml::Node* const named = catalog_of_script(*file.input->document);
+  if (named == nullptr || cli::can_be_mapped(file.catalog)) return;
+  const File* const other = find(file.catalog);
+  const bool is_there = other != nullptr && other->text != nullptr;
+  std::string why = concat(quote(named->text), " is not a catalog");
+  if (!is_there) {
+    why = concat("cannot read ", quote(named->text), why_unreadable(file.catalog));
+  } else if (other->is_about_catalog()) {
+    why = concat(quote(named->text), " is a ", name_of(*other), "; expected a catalog here");
+  } else if (other->kind == FileKind::catalog) {
+    if (other->is_shown()) return;
+    why = concat("the catalog ", quote(named->text), " cannot be used; 'cbc lint' says why");
+  }
+  file.findings.push_back({rule::invalid_value,
+                           Severity::error,
+                           file.path,
+                           named->range,
+                           concat("this ", name_of(file), " is not checked: ", why),
+                           {},
+                           {},
+                           true});
 }
 
 void Workspace::check_settings(File& file) {

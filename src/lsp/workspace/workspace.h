@@ -50,6 +50,8 @@ struct File {
   [[nodiscard]] bool is_about_catalog() const {
     return kind == cli::FileKind::script || kind == cli::FileKind::properties;
   }
+  /// Files that are neither open nor in the workspace are others' business.
+  [[nodiscard]] bool is_shown() const { return text != nullptr && (version || !folder.empty()); }
 };
 
 class Workspace {
@@ -109,6 +111,7 @@ class Workspace {
   void check(File& file);
   void check_catalog(File& file);
   void check_about(File& file);
+  void note_missing_catalog(File& file) const;
   void check_settings(File& file);
   [[nodiscard]] std::string find_catalog_of(const File& file);
   [[nodiscard]] std::string find_folder(const std::string& path) const;
@@ -121,9 +124,9 @@ class Workspace {
   /// Of files that are looked at; empty: there is no such file.
   std::map<std::string, std::optional<std::filesystem::file_time_type>> times_on_disk_;
   std::set<std::string> to_check_;
-  std::set<std::string> checked_;  ///< and not yet taken by next_checked
-  std::set<std::string> changed_catalogs_;
-  bool has_other_catalogs_ = false;                      ///< a file became one, or is none any more
+  std::set<std::string> checked_;           ///< and not yet taken by next_checked
+  std::set<std::string> changed_catalogs_;  ///< and files that came, or are no catalogs any more
+  bool has_other_catalogs_ = false;         ///< a file became one, or is none any more
   std::map<std::string, cli::CatalogFolders> catalogs_;  ///< by folder of the workspace
   std::uint64_t checks_ = 0;
   std::map<std::string, std::optional<SeveritySettings>> settings_;  ///< by settings file
