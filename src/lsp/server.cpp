@@ -338,7 +338,8 @@ void Server::add_requests() {
     const Json kinds = find_member(params, {"context", "only"});
     const bool wants_fixes =
         !kinds.is_array() || std::any_of(kinds.begin(), kinds.end(), [](const Json& kind) {
-          return kind == "" || kind == "quickfix";
+          const auto* const name = kind.get_ptr<const std::string*>();
+          return name != nullptr && (name->empty() || *name == "quickfix");
         });
     if (!wants_fixes) return Json::array();
     return in_range(params, [this](const Workspace& workspace, const File& file, std::size_t begin,
