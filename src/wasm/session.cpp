@@ -95,6 +95,8 @@ std::string Session::answer(std::string_view text) {
       throw JsonFault("expected an 'open' first, found " + quote(what));
     } else if (what == "load") {
       load(request, json);
+    } else if (what == "properties") {
+      check_properties(request, json);
     } else if (what == "apply") {
       apply(request, json);
     } else if (what == "advance") {
@@ -172,6 +174,17 @@ void Session::load(const JsonValue& request, JsonWriter& answer) {
   }
   tell_news(0, answer);
   if (!obstacle.empty()) answer.write("stopped", obstacle);
+}
+
+void Session::check_properties(const JsonValue& request, JsonWriter& answer) const {
+  cli::FileSet files(cli::FileSet::Findings::dropped);
+  const auto file = files.parse(name_or(request, "properties.yaml"), request["properties"].text());
+  LintedFile linted{
+      file->name, *file->text, file->diagnostics.all(), {}, LintedFile::Kind::properties};
+  if (file->is(cli::FileKind::properties)) {
+    linted.findings = cli::check_about_catalog(*file, *catalog_, {});
+  }
+  answer.write_json("lint", lint_json({linted}));
 }
 
 CoordinatorOptions Session::options() const {

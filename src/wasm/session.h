@@ -34,6 +34,7 @@ namespace cbc::play {
 ///   load     mission (its text), name: begins anew with all its entries: `lint`, and unless there
 ///            are errors `begin` and what an apply answers; `stopped` says why it goes no further,
 ///            if the clock runs away in it
+///   properties  properties (the text of a property file), name: `lint`
 ///   apply    event (an entry of a script): `index` and `time` after it, `entry` (how many entries
 ///            are done) of `entries`, `first` (the index of the first new event; later ones of
 ///            before are gone), `events` and `failures` as the page gets them, `expectations` (how
@@ -70,6 +71,7 @@ class Session {
 
   void open(const yaml::JsonValue& request, JsonWriter& answer);
   void load(const yaml::JsonValue& request, JsonWriter& answer);
+  void check_properties(const yaml::JsonValue& request, JsonWriter& answer) const;
   void apply(const yaml::JsonValue& request, JsonWriter& answer);
   void advance(const yaml::JsonValue& request, JsonWriter& answer);
   void go_to(const yaml::JsonValue& request, JsonWriter& answer);

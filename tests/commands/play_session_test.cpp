@@ -239,6 +239,17 @@ TEST(PlaySession, LoadsMissionsWithFailures) {
   EXPECT_EQ(page.state()["report"]["event"], page.events.size()) << "a bad mission changed it";
 }
 
+TEST(PlaySession, ChecksProperties) {
+  Page page(test::read_file(catalogs / "quadrotor.yaml"));
+  const auto errors_of = [&page](const std::string& properties) {
+    return page.ask({{"do", "properties"}, {"properties", properties}}).at("lint")["errors"];
+  };
+  EXPECT_EQ(errors_of("properties:\n- {can_start: LAND}\n"), 0);
+  EXPECT_EQ(errors_of("properties:\n- {can_start: NOBODY}\n"), 1);
+  EXPECT_EQ(errors_of("properties: ["), 1);
+  EXPECT_EQ(errors_of(""), 0);
+}
+
 TEST(PlaySession, StopsWhereTheClockRunsAway) {
   // Its tasks start, and time out, by themselves.
   Page restless(test::read_file(fs::path(CBC_SOURCE_DIR) / "src/page/play/first.yaml"));

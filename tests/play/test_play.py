@@ -514,6 +514,12 @@ class Proofs(PlayCase):
         self.click("#prove-end")
         self.wait("byId('proofs').textContent.includes('stopped')")
 
+    def test_findings_of_properties(self):
+        self.write_in("properties", "properties:\n- {name: x, never: {running: [DRIV]}}\n")
+        self.wait("byId('findings-properties').textContent.includes('DRIV')")
+        self.write_in("catalog", FIRST.replace("DRIVE", "DRIV"))  # DRIV_WITH_CAMERA is another name
+        self.wait("byId('findings-properties').textContent === ''")
+
     def test_properties_that_are_wrong(self):
         self.prove("properties:\n- {name: x, never: {runing: [DRIVE]}}\n")
         self.wait("!byId('prove').disabled")

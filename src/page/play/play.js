@@ -13,7 +13,10 @@ class Play {
       onState: () => this.showState(), onText: () => this.onWork(),
       onNote: (text, isBad) => this.note(text, isBad),
       onFindings: (kind, findings) => this.showFindings(kind, findings),
-      onCatalog: (catalog, requestable) => this.robot.build(catalog, requestable),
+      onCatalog: (catalog, requestable) => {
+        this.robot.build(catalog, requestable);
+        this.simulation.checkProperties(this.properties.text);
+      },
       onLeave: () => this.clock.halt(),
     });
     this.robot = new Robot({ onAsk: (entry) => this.ask(entry), onPreview: (entry) => this.preview(entry),
@@ -28,7 +31,7 @@ class Play {
     };
     this.catalog = editorOf('catalog', 'Catalog', (text) => this.openCatalog(text));
     this.mission = editorOf('mission', 'Mission', (text) => this.loadMission(text));
-    this.properties = editorOf('properties', 'Properties', () => {});
+    this.properties = editorOf('properties', 'Properties', (text) => this.simulation.checkProperties(text));
     this.prover = new Prover(
       { begin: byId('prove'), end: byId('prove-end'), limit: byId('prove-limit'), progress: byId('prove-progress'), list: byId('proofs') },
       { texts: () => ({ catalog: this.catalog.text, properties: this.properties.text }), onScript: (text) => this.openMission(text) });
@@ -38,7 +41,7 @@ class Play {
     this.savers = {
       catalog: saverOf('catalog', (text) => this.openCatalog(text)),
       mission: saverOf('mission', (text) => this.loadMission(text)),
-      properties: saverOf('properties', () => {}),
+      properties: saverOf('properties', (text) => this.simulation.checkProperties(text)),
     };
     this.clock = new Clock(this.simulation, this.engine, (time) => this.showTime(time));
     this.setUpBar();
@@ -170,7 +173,7 @@ class Play {
   }
 
   showFindings(kind, findings) {
-    const editor = kind === 'catalog' ? this.catalog : this.mission;
+    const editor = this[kind];
     editor.findings = findings;
     const list = byId(`findings-${kind}`);
     const shown = findings.slice(0, 50).map((finding) => {
@@ -381,7 +384,10 @@ class Play {
       () => this.catalog.text, () => this.simulation.names.catalog);
     setUp('mission', (text, name) => this.openMission(text, name), () => this.missionText(), () => this.simulation.names.mission);
     setUp('properties', (text) => {
-      if (!this.unsaved.has('properties') || this.mayReplace()) this.properties.text = text;
+      if (this.unsaved.has('properties') && !this.mayReplace()) return;
+      this.properties.text = text;
+      this.markSaved('properties');
+      this.simulation.checkProperties(text);
     }, () => this.properties.text, () => `${this.stem}.properties.yaml`);
   }
 

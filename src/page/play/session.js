@@ -158,6 +158,13 @@ class Simulation {
     return { answer, fault: answer.begin === undefined ? `line ${first?.line}: ${first?.message}` : null };
   }
 
+  checkProperties(properties) {
+    return this.do(async () => {
+      if (!this.isOpen) return;
+      this.view.onFindings('properties', findingsOf(await this.engine.ask({ do: 'properties', properties })));
+    });
+  }
+
   needRobot() {
     if (!this.isOpen) throw new Error('there is no robot yet: the catalog has errors');
   }
