@@ -52,7 +52,7 @@ class Scanner {
       : text_(text), cursor_(std::min(cursor, text.size())) {}
   /// There is no cursor, and each scalar is visited.
   Scanner(std::string_view text, const std::function<void(const Context&)>& visit)
-      : text_(text), cursor_(text.npos), visit_(&visit) {}
+      : text_(text), cursor_(std::string_view::npos), visit_(&visit) {}
 
   Context scan() && {
     at_ = text_.size() - utf8::without_byte_order_mark(text_).size();
