@@ -647,6 +647,13 @@ class Files(Installed):
         self.assertEqual(self.files["p.yaml"].read_text(), "properties:\n- {name: é, can_start: DRIVE}\n")
         self.assertEqual(self.files["m.yaml"].read_text(), self.MISSION)
 
+    def test_what_is_not_saved_is_marked(self):
+        self.assertTrue(self.ask("byId('edited-mission').hidden"))  # as it is in its file
+        self.press("start GREET")
+        self.assertFalse(self.ask("byId('edited-mission').hidden"))
+        self.save("mission")
+        self.assertTrue(self.ask("byId('edited-mission').hidden"))
+
     def test_a_mission_is_saved_as_it_is_shown(self):
         self.ask("play.chooseTab('mission')")
         self.click("#events tbody tr:nth-child(1)")

@@ -10,7 +10,7 @@ class Play {
   constructor() {
     this.engine = new Engine();
     this.simulation = new Simulation(this.engine, {
-      onState: () => this.showState(), onText: () => this.onWork(),
+      onState: () => this.showState(), onText: () => this.recordSoon(), onEvent: () => this.noteEvent(),
       onNote: (text, isBad) => this.note(text, isBad),
       onFindings: (kind, findings) => this.showFindings(kind, findings),
       onCatalog: (catalog, requestable) => {
@@ -153,10 +153,9 @@ class Play {
     for (const role of roles) byId(`edited-${role}`).hidden = !this.unsaved.has(role);
   }
 
-  /** What was done has changed. */
-  onWork() {
+  /** Something was done, of which the file of the mission does not know. */
+  noteEvent() {
     if (this.savers.mission.file !== undefined) this.markEdited('mission');
-    this.recordSoon();
   }
 
   /** What was done, as a mission; the text is only written while it is in view, and nobody writes there. */

@@ -7,8 +7,8 @@
 const beginning = { index: 0, time: 0, entry: 0, entries: 0 };
 
 class Simulation {
-  /** `view`: {onCatalog(catalog, requestable), onState(), onText(), onNote(text, isBad), onFindings(kind, findings),
-   * onLeave()}. */
+  /** `view`: {onCatalog(catalog, requestable), onState(), onText(), onEvent(), onNote(text, isBad),
+   * onFindings(kind, findings), onLeave()}. */
   constructor(engine, view) {
     this.engine = engine;
     this.view = view;
@@ -221,6 +221,7 @@ class Simulation {
     const notes = [...(rejected === undefined ? [] : [`Rejected: ${describeEvent(rejected, this.catalog)}: ${reasons}`]), ...warnings];
     this.view.onNote(notes.join('; '), notes.length > 0);
     this.view.onText();
+    this.view.onEvent();
   }
 
   /** What an entry would do: a move of cbc.what-if/1, or {error}; undefined if the program was lost meanwhile. */
