@@ -11,6 +11,8 @@ source=$(realpath -- "$(dirname -- "${BASH_SOURCE[0]}")/../..")
 
 mkdir -- "$copy"
 tar -C "$source" --exclude=./build --exclude=./.git -cf - . | tar -C "$copy" --touch -xf -
+# The page of the simulator is a part of the package if it was made before.
+if [[ -e $source/build/play ]]; then mkdir -- "$copy/build" && cp -R -- "$source/build/play" "$copy/build"; fi
 made="$copy/build/package/$(basename -- "$package")"
 umask 077
 LC_ALL=C.UTF-8 TZ=Pacific/Auckland "$copy/dev" package

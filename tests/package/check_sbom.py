@@ -51,7 +51,7 @@ def check_form(bill):
             check(LICENSE.fullmatch(package[key]), package[key])
         for reference in package.get("externalRefs", []):
             check(reference["referenceCategory"] == "PACKAGE-MANAGER" and reference["referenceType"] == "purl", reference)
-            check(re.fullmatch(r"pkg:(deb/debian/[a-z0-9.%B-]+@[A-Za-z0-9.%~-]+\?arch=\w+|npm/(%40)?[a-z/-]+@[0-9.]+)",
+            check(re.fullmatch(r"pkg:(deb/debian/[a-z0-9.%B-]+@[A-Za-z0-9.%~-]+\?arch=\w+|npm/(%40)?[a-z0-9/-]+@[0-9.]+)",
                                reference["referenceLocator"]),
                   reference["referenceLocator"])
     for relation in bill["relationships"]:

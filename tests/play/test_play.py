@@ -745,6 +745,15 @@ class Page(PlayCase):
         self.open("#example=nothing")
         self.assertIn("no example", self.text("#note"))
 
+    def test_the_gallery_links_all_examples(self):
+        ids = self.ask("examples.sessions.map(({ id }) => id)")
+        self.browser.load((PLAY / "gallery.html").as_uri())
+        links = self.ask("[...document.querySelectorAll('li a')].map((link) => link.href)")
+        self.assertEqual([link.partition("#example=")[2] for link in links], ids)
+        self.assertIn("A lift that does not come", self.text("main"))
+        self.open(address=links[-1])
+        self.assertEqual(self.text("#note"), "")
+
     def test_things_to_try(self):
         for number, running in ((1, "DRIVE_WITH_LIDAR"), (2, "DOCK"), (3, "DRIVE_WITH_LIDAR")):
             self.open()

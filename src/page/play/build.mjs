@@ -3,6 +3,7 @@
 // ROOT: of the sources. PROGRAM: the folder with play.js and play.wasm. MODULES: the folder with node_modules.
 //
 // index.html has files beside it, for a server; cbc-play.html has all of them in itself, and opens from a disk.
+// gallery.html links the sessions that they offer.
 
 import { createHash } from 'node:crypto';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
@@ -10,6 +11,7 @@ import { createRequire } from 'node:module';
 import path from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { listExamples } from './examples.mjs';
+import { galleryPage } from './gallery.mjs';
 import { listLicenses } from './licenses.mjs';
 
 const [root, program, modules, output] = process.argv.slice(2).map((folder) => path.resolve(folder));
@@ -29,7 +31,8 @@ const bundled = await esbuild.build({
 });
 const minified = (text) => esbuild.transformSync(text, { minifyWhitespace: true, minifySyntax: true, charset: 'utf8' }).code;
 
-const examples = JSON.stringify(listExamples(root)).replaceAll('<', '\\u003c');
+const listed = listExamples(root);
+const examples = JSON.stringify(listed).replaceAll('<', '\\u003c');
 const script = [
   bundled.outputFiles[0].text, 'const { TextEditor } = editorBundle;', `const examples = ${examples};`,
   minified([...pageScripts.map((name) => source('page', 'html', name)), ...ownScripts.map((name) => source('page', 'play', name))].join('\n')),
@@ -79,6 +82,7 @@ write('play.wasm', wasm);
 write('worker.js', workerScript);
 write('play.js', script);
 write('licenses.txt', licenses);
+write('gallery.html', galleryPage(listed));
 write('index.html', pageOf({
   scriptTag: '<script src="play.js"></script>', scriptSource: "'self'", connect: "'self'", workers: "'self'", parts: '',
 }));

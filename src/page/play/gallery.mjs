@@ -1,0 +1,43 @@
+// The gallery: each catalog and mission of the project as a session of the simulator.
+
+const escaped = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
+
+/** The first paragraph of the comment at the beginning of a text. */
+function summaryOf(text) {
+  const lines = text.split('\n').filter((line) => !line.startsWith('# yaml-language-server'));
+  const end = lines.findIndex((line) => !/^# ./.test(line));
+  return lines.slice(0, end).map((line) => line.slice(2)).join(' ');
+}
+
+/** A page, beside which cbc-play.html is. `examples`: see listExamples. */
+export function galleryPage({ texts, sessions }) {
+  const items = sessions.map(({ id, title, catalog, mission }) => {
+    const isOfMission = mission !== undefined && id !== catalog.replace(/\.yaml$/, '');
+    const summary = summaryOf(texts[isOfMission ? mission : catalog]);
+    return `<li><a href="cbc-play.html#example=${encodeURIComponent(id)}">${escaped(title)}</a> ${escaped(summary)}</li>`;
+  });
+  return `<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'">
+<title>Robots to play with \u2013 cbc play</title>
+<style>
+body { max-width: 46em; margin: 2em auto; padding: 0 1em; font: 15px/1.5 system-ui, sans-serif; }
+li { margin: 0.5em 0; }
+</style>
+</head>
+<body>
+<main>
+<h1>Robots to play with</h1>
+<p>Each catalog, from the end of its mission, and each further mission. <a href="index.html">The simulator</a> has them as examples, too.</p>
+<ul>
+${items.join('\n')}
+</ul>
+</main>
+</body>
+</html>
+`;
+}
