@@ -14,7 +14,7 @@ export function galleryPage({ texts, sessions }) {
   const items = sessions.map(({ id, title, catalog, mission }) => {
     const isOfMission = mission !== undefined && id !== catalog.replace(/\.yaml$/, '');
     const summary = summaryOf(texts[isOfMission ? mission : catalog]);
-    return `<li><a href="cbc-play.html#example=${encodeURIComponent(id)}">${escaped(title)}</a> ${escaped(summary)}</li>`;
+    return `<li><a href="cbc-play.html#example=${encodeURIComponent(id)}">${escaped(title)}</a> &ndash; ${escaped(summary)}</li>`;
   });
   return `<!DOCTYPE html>
 <html lang="en">
@@ -23,7 +23,7 @@ export function galleryPage({ texts, sessions }) {
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'">
-<title>Robots to play with \u2013 cbc play</title>
+<title>Example robots and missions \u2013 cbc play</title>
 <style>
 body { max-width: 46em; margin: 2em auto; padding: 0 1em; font: 15px/1.5 system-ui, sans-serif; }
 li { margin: 0.5em 0; }
@@ -31,8 +31,8 @@ li { margin: 0.5em 0; }
 </head>
 <body>
 <main>
-<h1>Robots to play with</h1>
-<p>Each catalog, from the end of its mission, and each further mission. <a href="index.html">The simulator</a> has them as examples, too.</p>
+<h1>Example robots and missions</h1>
+<p>A catalog opens at the end of its mission; its other missions follow it here. <a href="index.html">The simulator</a> lists them as examples, too.</p>
 <ul>
 ${items.join('\n')}
 </ul>
