@@ -10,6 +10,7 @@ import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import path from 'node:path';
 import { gzipSync } from 'node:zlib';
+import { documentOf } from './document.mjs';
 import { listExamples } from './examples.mjs';
 import { galleryPage } from './gallery.mjs';
 import { listLicenses } from './licenses.mjs';
@@ -50,18 +51,7 @@ function pageOf({ scriptTag, scriptSource, connect, workers, parts }) {
   const page = source('page', 'html', 'page.html');
   const policy = ["default-src 'none'", "style-src 'unsafe-inline'", `script-src ${scriptSource} 'wasm-unsafe-eval'`,
                   `worker-src ${workers}`, `connect-src ${connect}`, 'img-src data:', "base-uri 'none'", "form-action 'none'"];
-  return `<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<meta http-equiv="Content-Security-Policy" content="${policy.join('; ')}">
-<link rel="icon" href="data:,">
-<title>cbc play</title>
-<style>${style}</style>
-</head>
-<body class="play">
+  return documentOf({ title: 'cbc play', policy, style, body: `<body class="play">
 ${source('page', 'play', 'play.html')}
 <div id="run-page">
 ${between(page, '<header>', '</header>')}
@@ -71,9 +61,7 @@ ${between(page, '<dialog', '</dialog>')}
 <div id="tip" role="tooltip" hidden></div>
 <script type="application/json" id="saved-session">null</script>
 ${parts}${scriptTag}
-</body>
-</html>
-`;
+</body>` });
 }
 
 mkdirSync(output, { recursive: true });

@@ -1,5 +1,12 @@
 // The gallery: each catalog and mission of the project as a session of the simulator.
 
+import { documentOf } from './document.mjs';
+
+const style = `
+body { max-width: 46em; margin: 2em auto; padding: 0 1em; font: 15px/1.5 system-ui, sans-serif; }
+li { margin: 0.5em 0; }
+`;
+
 const escaped = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
 
 /** The first paragraph of the comment at the beginning of a text. */
@@ -16,20 +23,10 @@ export function galleryPage({ texts, sessions }) {
     const summary = summaryOf(texts[isOfMission ? mission : catalog]);
     return `<li><a href="cbc-play.html#example=${encodeURIComponent(id)}">${escaped(title)}</a> &ndash; ${escaped(summary)}</li>`;
   });
-  return `<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'">
-<title>Example robots and missions \u2013 cbc play</title>
-<style>
-body { max-width: 46em; margin: 2em auto; padding: 0 1em; font: 15px/1.5 system-ui, sans-serif; }
-li { margin: 0.5em 0; }
-</style>
-</head>
-<body>
+  return documentOf({
+    title: 'Example robots and missions \u2013 cbc play', style,
+    policy: ["default-src 'none'", "style-src 'unsafe-inline'", 'img-src data:'],
+    body: `<body>
 <main>
 <h1>Example robots and missions</h1>
 <p>A catalog opens at the end of its mission; its other missions follow it here. <a href="index.html">The simulator</a> lists them as examples, too.</p>
@@ -37,7 +34,6 @@ li { margin: 0.5em 0; }
 ${items.join('\n')}
 </ul>
 </main>
-</body>
-</html>
-`;
+</body>`,
+  });
 }
