@@ -1,10 +1,10 @@
 // Puts the parts of the simulator together: texts on the left, the robot, and the picture below.
 
 const pauseOfTyping = 300; // milliseconds
+const slowAnswer = 1000; // milliseconds, after which the work can be ended
 const roles = ['catalog', 'mission', 'properties']; // of the texts
 
 const fileName = (path) => path.replace(/^.*\//, '');
-const slowAnswer = 1000; // milliseconds, after which the work can be ended
 
 class Play {
   constructor() {
@@ -22,27 +22,13 @@ class Play {
     this.robot = new Robot({ onAsk: (entry) => this.ask(entry), onPreview: (entry) => this.preview(entry),
                              onWhy: (task) => this.explain(task).catch((error) => this.note(error.message, true)) });
     this.unsaved = new Set(); // texts that somebody has edited
-    const editorOf = (role, label, use) => {
-      const useSoon = debounced(use);
-      return new TextEditor(byId(`text-${role}`), label, (text) => {
-        this.markEdited(role);
-        useSoon(text);
-      });
-    };
-    this.catalog = editorOf('catalog', 'Catalog', (text) => this.openCatalog(text));
-    this.mission = editorOf('mission', 'Mission', (text) => this.loadMission(text));
-    this.properties = editorOf('properties', 'Properties', (text) => this.simulation.checkProperties(text));
+    this.savers = {};
+    this.setUpText('catalog', 'Catalog', (text) => this.openCatalog(text));
+    this.setUpText('mission', 'Mission', (text) => this.loadMission(text));
+    this.setUpText('properties', 'Properties', (text) => this.simulation.checkProperties(text));
     this.prover = new Prover(
       { begin: byId('prove'), end: byId('prove-end'), limit: byId('prove-limit'), progress: byId('prove-progress'), list: byId('proofs') },
       { texts: () => ({ catalog: this.catalog.text, properties: this.properties.text }), onScript: (text) => this.openMission(text) });
-    const saverOf = (role, load) => new FileSaver(role, this[role], {
-      load, onNote: (text, isBad) => this.note(text, isBad), onSaved: () => this.markSaved(role),
-    });
-    this.savers = {
-      catalog: saverOf('catalog', (text) => this.openCatalog(text)),
-      mission: saverOf('mission', (text) => this.loadMission(text)),
-      properties: saverOf('properties', (text) => this.simulation.checkProperties(text)),
-    };
     this.clock = new Clock(this.simulation, this.engine, (time) => this.showTime(time));
     this.setUpBar();
     this.setUpTabs();
@@ -56,6 +42,18 @@ class Play {
   }
 
   // Texts -----------------------------------------------------------------------------------------
+
+  /** `use(text)`: what is done with a text that was typed, or that is in its file by now. */
+  setUpText(role, label, use) {
+    const useSoon = debounced(use);
+    this[role] = new TextEditor(byId(`text-${role}`), label, (text) => {
+      this.markEdited(role);
+      useSoon(text);
+    });
+    this.savers[role] = new FileSaver(role, this[role], {
+      load: use, onNote: (text, isBad) => this.note(text, isBad), onSaved: () => this.markSaved(role),
+    });
+  }
 
   /** What the address or the page has, or else the first example: "#s=SESSION" or "#example=ID". */
   async start() {
@@ -111,9 +109,10 @@ class Play {
     if (index !== undefined && this.simulation.isOpen) await this.simulation.goTo(index);
   }
 
-  /** Whether another session may take the place of texts that were edited. */
-  mayReplace() {
-    return this.unsaved.size === 0 ||
+  /** Whether something else may take the place of a text, or of all of them (`role` undefined), if it was edited. */
+  mayReplace(role) {
+    const isEdited = role === undefined ? this.unsaved.size > 0 : this.unsaved.has(role);
+    return !isEdited ||
       confirm(`What you have edited is not saved: ${[...this.unsaved].join(', ')}. Open something else all the same?`);
   }
 
@@ -123,7 +122,7 @@ class Play {
   }
 
   openMission(text, name = this.simulation.names.mission) {
-    if (this.unsaved.has('mission') && !this.mayReplace()) return undefined;
+    if (!this.mayReplace('mission')) return undefined;
     this.markSaved('mission');
     this.simulation.names.mission = name;
     this.mission.text = text;
@@ -383,7 +382,7 @@ class Play {
       () => this.catalog.text, () => this.simulation.names.catalog);
     setUp('mission', (text, name) => this.openMission(text, name), () => this.missionText(), () => this.simulation.names.mission);
     setUp('properties', (text) => {
-      if (this.unsaved.has('properties') && !this.mayReplace()) return;
+      if (!this.mayReplace('properties')) return;
       this.properties.text = text;
       this.markSaved('properties');
       this.simulation.checkProperties(text);
