@@ -3,15 +3,14 @@
 const mostUnpacked = 20 << 20; // bytes
 const longestLink = 30_000; // characters, more than which some programs do not pass on
 
-/** Whether this page comes from `cbc play`, which has put a session with files into it. */
-const isServed = JSON.parse(partOf('saved-session'))?.files !== undefined;
-
 /** What somebody should know before sending a link; empty: nothing. */
 function doubtOf(link) {
   if (link.length > longestLink) {
     return ` It has ${quantity(link.length, 'character')}, more than some programs pass on: "save page" makes a file instead.`;
   }
   if (location.protocol === 'file:') return ' It opens only where this page is at the same path: "save page" makes a file for others.';
+  // A page of `cbc play` has a session with files in it.
+  const isServed = JSON.parse(partOf('saved-session'))?.files !== undefined;
   if (isServed) return ' It opens only on this machine, while "cbc play" runs: "save page" makes a file for others.';
   return '';
 }
