@@ -263,14 +263,16 @@ void Session::take(Step step, bool is_clock) {
   entry->step = std::move(step);
   entry->step.time = std::max(entry->step.time.value_or(0), next_time());
   entry->is_clock = is_clock;
-  const std::vector<Happened> events = events_;
+  const auto now = events_.begin() + static_cast<std::ptrdiff_t>(present().events);
+  const std::vector<Happened> later(now, events_.end());
   const std::size_t told = new_events_.size();
   const std::size_t failed = new_failures_.size();
-  events_.resize(static_cast<std::size_t>(present().events));
+  events_.erase(now, events_.end());
   try {
     run(*entry);
   } catch (...) {
-    events_ = events;
+    events_.resize(static_cast<std::size_t>(present().events));
+    events_.insert(events_.end(), later.begin(), later.end());
     new_events_.resize(told);
     new_failures_.resize(failed);
     resume();
@@ -366,9 +368,9 @@ void Session::go_to(const JsonValue& request, JsonWriter& answer) {
     part->is_clock = true;
     part->step.expect.emplace();
     part->step.time = events_[index - 1].time;
-    const std::vector<Happened> events = events_;
+    const std::size_t known = events_.size();
     run(*part);
-    events_ = events;
+    events_.resize(known);
     new_events_.clear();
     new_failures_.clear();
     cut_ = part;
