@@ -7,7 +7,7 @@
 
 #include "bench/benchmarks.h"
 #include "bench/inputs.h"
-#include "verify/engine/explore.h"
+#include "explore/properties/explore.h"
 
 namespace cbc::bench {
 namespace {

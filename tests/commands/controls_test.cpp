@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "core/property/properties.h"
+#include "explore/properties/explore.h"
 #include "unit/compiled_fixture.h"
-#include "verify/engine/explore.h"
 
 namespace cbc {
 namespace {

@@ -1,5 +1,5 @@
 // Remembered answers against those that are computed for one question alone.
-#include "verify/engine/decisions.h"
+#include "explore/moves/decisions.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -10,11 +10,11 @@
 
 #include <gtest/gtest.h>
 
+#include "explore/model/model.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "support/read_file.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
-#include "verify/engine/model.h"
 
 namespace cbc::decisions_test {
 namespace {

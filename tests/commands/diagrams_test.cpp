@@ -1,4 +1,4 @@
-#include "verify/engine/diagrams.h"
+#include "explore/sets/diagrams.h"
 
 #include <bit>
 #include <cstdint>

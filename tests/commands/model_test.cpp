@@ -1,5 +1,5 @@
 // What a model can hold, and which requests interact, compared with the definition.
-#include "verify/engine/model.h"
+#include "explore/model/model.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -11,14 +11,14 @@
 #include <gtest/gtest.h>
 
 #include "core/compile/compile.h"
+#include "explore/properties/explore.h"
 #include "runtime/base/disjoint_sets.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "support/exclusive_tasks.h"
 #include "support/rounds.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
-#include "verify/engine/explore.h"
-#include "verify/engine/same_as.h"
+#include "versions/lockstep/same_as.h"
 
 namespace cbc::model_test {
 namespace {

@@ -1,13 +1,13 @@
 // What events can come to, on catalogs whose states are counted by hand.
-#include "verify/engine/outcomes.h"
+#include "explore/properties/outcomes.h"
 
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "explore/properties/explore.h"
 #include "unit/compiled_fixture.h"
-#include "verify/engine/explore.h"
 
 namespace cbc::outcomes_test {
 namespace {

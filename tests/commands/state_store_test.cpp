@@ -1,4 +1,4 @@
-#include "verify/engine/state_store.h"
+#include "explore/sets/state_store.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "explore/properties/verification.h"
 #include "support/exclusive_tasks.h"
 #include "unit/compiled_fixture.h"
-#include "verify/engine/verification.h"
 
 namespace cbc::verify_report_test {
 namespace {

@@ -15,12 +15,12 @@
 #include "compiled_model.h"
 #include "demand.h"
 #include "enumeration.h"
+#include "explore/properties/verification.h"
 #include "lint_oracle.h"
 #include "plain_exploration.h"
 #include "plain_model.h"
 #include "random_cases.h"
 #include "statistics.h"
-#include "verify/engine/verification.h"
 #include "verify_case.h"
 
 namespace cbc::plain::constraint_proof_property_test {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/property/properties.h"
+#include "explore/properties/explore.h"
 #include "happening.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "verify/engine/explore.h"
 
 // What compare_catalogs() is held against: two plain models in lockstep.
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/property/properties.h"
+#include "explore/properties/explore.h"
 #include "plain_model.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "verify/engine/explore.h"
 
 // What explore() is held against: a search without any means but a set of states.
 

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "core/property/properties.h"
+#include "explore/properties/explore.h"
 #include "happening.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/state.h"
-#include "verify/engine/explore.h"
 
 namespace cbc::plain {
 

@@ -26,8 +26,8 @@
 #include "random_cases.h"
 #include "script_run.h"
 #include "support/read_file.h"
-#include "verify/engine/same_as.h"
 #include "verify_case.h"
+#include "versions/lockstep/same_as.h"
 #include "yaml_text.h"
 
 namespace cbc::plain::same_as_property_test {

@@ -16,6 +16,7 @@
 #include "core/compile/compile.h"
 #include "core/report/move_words.h"
 #include "demand.h"
+#include "explore/properties/verification.h"
 #include "model.h"
 #include "plain_comparison.h"
 #include "plain_exploration.h"
@@ -24,7 +25,6 @@
 #include "read_yaml.h"
 #include "tune/engine/numbers.h"
 #include "tune/engine/state_tuner.h"
-#include "verify/engine/verification.h"
 #include "verify_case.h"
 #include "yaml_text.h"
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/property/properties.h"
+#include "explore/properties/explore.h"
 #include "model.h"
 #include "question_generator.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "verify/engine/explore.h"
 
 namespace cbc::plain {
 

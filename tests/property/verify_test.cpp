@@ -17,13 +17,13 @@
 #include "compiled_text.h"
 #include "condition_text.h"
 #include "demand.h"
+#include "explore/properties/explore.h"
 #include "plain_exploration.h"
 #include "question_generator.h"
 #include "random.h"
 #include "random_cases.h"
 #include "statistics.h"
 #include "support/read_file.h"
-#include "verify/engine/explore.h"
 #include "verify_case.h"
 
 namespace cbc::plain::verify_test {

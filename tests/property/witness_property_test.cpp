@@ -14,13 +14,13 @@
 
 #include "compiled_text.h"
 #include "demand.h"
+#include "explore/moves/witness.h"
+#include "explore/properties/verification.h"
 #include "generator.h"
 #include "plain_model.h"
 #include "random.h"
 #include "random_cases.h"
 #include "script_run.h"
-#include "verify/engine/verification.h"
-#include "verify/engine/witness.h"
 #include "verify_case.h"
 #include "yaml_text.h"
 

@@ -1,8 +1,10 @@
-// The layers of docs/architecture.md are those of the code: a folder of src/ includes itself and
-// the rows below its own. A command is a folder as well: it includes its own files, what is below
-// all commands, and the engine of at most one other command.
+// The table of docs/architecture.md is that of the code: a folder includes itself and folders of
+// lower layers, and has no more lines than its row says.
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -17,26 +19,42 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path source = fs::path(CBC_SOURCE_DIR) / "src";
+const fs::path root = CBC_SOURCE_DIR;
+const fs::path source = root / "src";
 
-/// The rows of the table of layers, the highest one first.
-constexpr int row_of_commands = 2;
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
-/// The row of each folder in the table.
-std::map<std::string, int> rows_of_table() {
-  std::ifstream page(fs::path(CBC_SOURCE_DIR) / "docs" / "architecture.md");
-  std::map<std::string, int> rows;
-  const std::regex name("`src/([a-z_/]+)`");
-  int row = 0;
+/// A row of the table.
+struct Room {
+  int layer = 0;
+  std::size_t most_lines = 0;
+};
+
+/// The rows by folder, which is relative to the project.
+std::map<std::string, Room> rows_of_table() {
+  std::ifstream page(root / "docs" / "architecture.md");
+  std::map<std::string, Room> rows;
+  const std::regex form(R"(^\| (\d+) \| `([a-z_/]+)` \| ([\d,]+) \|.*)");
   for (std::string line; std::getline(page, line);) {
-    if (!line.starts_with("| `src/")) continue;
-    ++row;
-    const std::string cell = line.substr(0, line.find('|', 1));
-    for (std::sregex_iterator at(cell.begin(), cell.end(), name), end; at != end; ++at) {
-      EXPECT_TRUE(rows.emplace((*at)[1], row).second) << (*at)[1] << " is there twice";
-    }
+    std::smatch match;
+    if (!std::regex_match(line, match, form)) continue;
+    std::string lines = match[3];
+    std::erase(lines, ',');
+    EXPECT_TRUE(rows.emplace(match[2], Room{std::stoi(match[1]), std::stoul(lines)}).second)
+        << match[2] << " is there twice";
   }
   return rows;
+}
+
+/// The row of a folder: its own, or that of the nearest folder around it.
+const Room* row_of(const std::map<std::string, Room>& rows, std::string folder) {
+  for (; !folder.empty(); folder = fs::path(folder).parent_path().string()) {
+    if (const auto row = rows.find(folder); row != rows.end()) return &row->second;
+  }
+  return nullptr;
 }
 
 bool is_source(const fs::path& path) {
@@ -69,41 +87,66 @@ std::vector<Include> all_includes() {
 std::string command_of(const std::string& folder) { return folder.substr(0, folder.find('/')); }
 
 TEST(Layers, IncludeOnlyLowerOnes) {
-  const std::map<std::string, int> rows = rows_of_table();
-  const auto row_of = [&](const std::string& folder) {
-    const auto row = rows.find(folder);
-    return row != rows.end()                   ? row->second
-           : rows.contains(command_of(folder)) ? row_of_commands
-                                               : 0;
-  };
-  std::set<std::string> folders;
-  std::map<std::string, std::set<std::string>> other_commands;
+  const std::map<std::string, Room> rows = rows_of_table();
   for (const Include& include : all_includes()) {
     if (include.folder.empty() || include.other.empty()) continue;  // main(), the table of commands
-    const int row = row_of(include.folder);
-    ASSERT_GT(row, 0) << include.folder << " is not in docs/architecture.md";
-    folders.insert(row == row_of_commands ? command_of(include.folder) : include.folder);
-    if (include.other == include.folder) continue;
-    const int other_row = row_of(include.other);
-    ASSERT_GT(other_row, 0) << include.from << " includes from " << include.other;
-    if (other_row != row_of_commands || row < row_of_commands) {
-      EXPECT_GT(other_row, row) << include.from << " includes from " << include.other;
-      continue;
-    }
-    EXPECT_EQ(row, row_of_commands) << include.from << " includes from " << include.other;
-    if (command_of(include.other) == command_of(include.folder)) continue;
-    EXPECT_TRUE(include.other.find("/engine") != std::string::npos)
-        << include.from << " includes from " << include.other << ", which is no engine";
-    other_commands[command_of(include.folder)].insert(command_of(include.other));
+    const Room* row = row_of(rows, "src/" + include.folder);
+    const Room* other = row_of(rows, "src/" + include.other);
+    ASSERT_TRUE(row && other) << include.from << " includes from " << include.other
+                              << ": one of the folders is not in docs/architecture.md";
+    if (row == other) continue;
+    EXPECT_GT(row->layer, other->layer) << include.from << " includes from " << include.other;
   }
-  for (const auto& [command, others] : other_commands) {
-    EXPECT_EQ(others.size(), 1) << command << " includes the engines of several commands";
-    for (const std::string& other : others) {
-      EXPECT_FALSE(other_commands.contains(other))
-          << command << " and " << other << " include others";
+}
+
+/// What a row is about is there, and what is there has a row.
+TEST(Layers, AreOfFoldersThatExist) {
+  const std::map<std::string, Room> rows = rows_of_table();
+  ASSERT_GT(rows.size(), 30);
+  for (const auto& [folder, row] : rows) EXPECT_TRUE(fs::is_directory(root / folder)) << folder;
+}
+
+std::size_t lines_of(const fs::path& file) {
+  const std::string text = text_of(file);
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST(Layers, KeepToTheirLines) {
+  const std::map<std::string, Room> rows = rows_of_table();
+  std::map<const Room*, std::size_t> lines;
+  for (const fs::path& top : {source, root / "include"}) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(top)) {
+      if (!is_source(entry.path())) continue;
+      const std::string folder = entry.path().lexically_relative(root).parent_path();
+      const Room* row = row_of(rows, folder);
+      ASSERT_TRUE(row) << folder << " is not in docs/architecture.md";
+      lines[row] += lines_of(entry.path());
     }
   }
-  EXPECT_EQ(folders.size(), rows.size()) << "docs/architecture.md has folders that are not there";
+  for (const auto& [folder, row] : rows) {
+    EXPECT_LE(lines[&row], row.most_lines) << folder << ": see the table of docs/architecture.md";
+  }
+}
+
+/// The budget of the tests is in a sentence below the table.
+TEST(Layers, TestsKeepToTheirLines) {
+  std::smatch match;
+  std::string page = text_of(root / "docs" / "architecture.md");
+  std::erase(page, ',');
+  ASSERT_TRUE(std::regex_search(
+      page, match,
+      std::regex(R"((\d+) lines in all files under `tests` and (\d+) files of golden)")));
+  std::size_t lines = 0;
+  std::size_t golden_files = 0;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / "tests")) {
+    const std::string path = entry.path().lexically_relative(root);
+    if (!entry.is_regular_file() || entry.path().extension() == ".pyc") continue;
+    if (path.find("/node_modules/") != std::string::npos) continue;
+    lines += lines_of(entry.path());
+    if (path.starts_with("tests/golden/") && !is_source(entry.path())) ++golden_files;
+  }
+  EXPECT_LE(lines, std::stoul(match[1])) << "see below the table of docs/architecture.md";
+  EXPECT_LE(golden_files, std::stoul(match[2])) << "see below the table of docs/architecture.md";
 }
 
 /// The inside of a command: the engine knows nothing of its reports, and neither of its command

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "verify/engine/exploration_limits.h"
-#include "verify/engine/state_store.h"
+#include "explore/sets/state_store.h"
+#include "explore/space/exploration_limits.h"
 
 namespace cbc {
 

@@ -18,10 +18,10 @@
 
 #include "core/script/runner.h"
 #include "coverage/engine/breadth_first.h"
+#include "explore/moves/stepper.h"
+#include "explore/moves/witness.h"
 #include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/state.h"
-#include "verify/engine/stepper.h"
-#include "verify/engine/witness.h"
 
 namespace cbc {
 namespace {

@@ -12,10 +12,10 @@
 #include "core/property/properties.h"
 #include "coverage/engine/goal_monitor.h"
 #include "coverage/engine/goals.h"
+#include "explore/model/model.h"
+#include "explore/sets/state_store.h"
+#include "explore/space/exploration_limits.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "verify/engine/exploration_limits.h"
-#include "verify/engine/model.h"
-#include "verify/engine/state_store.h"
 
 namespace cbc {
 

@@ -11,9 +11,9 @@
 #include "core/property/properties.h"
 #include "core/script/script.h"
 #include "coverage/engine/goals.h"
+#include "explore/model/model.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/coordinator.h"
-#include "verify/engine/model.h"
 
 namespace cbc {
 

@@ -10,8 +10,8 @@
 #include "core/report/words.h"
 #include "core/support/wording.h"
 #include "coverage/report/coverage_report.h"
+#include "explore/properties/explore.h"
 #include "page_files.h"
-#include "verify/engine/explore.h"
 
 // The page needs no script: what a line shows on demand is in elements that unfold.
 

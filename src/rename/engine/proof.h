@@ -5,7 +5,7 @@
 #include "core/catalog/name_place.h"
 #include "core/catalog/renaming.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "verify/engine/same_as.h"
+#include "versions/lockstep/same_as.h"
 
 namespace cbc {
 

@@ -6,7 +6,7 @@
 
 #include "core/catalog/renaming.h"
 #include "core/diagnostic/diagnostic.h"
-#include "verify/engine/same_as.h"
+#include "versions/lockstep/same_as.h"
 
 namespace cbc::cli {
 

@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "core/compile/compile.h"
+#include "explore/properties/verification.h"
 #include "tune/engine/decision_range.h"
-#include "verify/engine/verification.h"
 
 namespace cbc {
 namespace {

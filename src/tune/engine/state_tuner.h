@@ -9,12 +9,12 @@
 
 #include "core/catalog/catalog.h"
 #include "core/property/properties.h"
+#include "explore/properties/explore.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "tune/engine/numbers.h"
 #include "tune/engine/solved_problems.h"
 #include "tune/engine/tuner.h"
-#include "verify/engine/explore.h"
-#include "verify/engine/same_as.h"
+#include "versions/lockstep/same_as.h"
 
 namespace cbc {
 

@@ -25,7 +25,7 @@
 #include <tuple>
 #include <utility>
 
-#include "verify/engine/fitting_search.h"
+#include "ask/fitting_search.h"
 
 namespace cbc {
 namespace {

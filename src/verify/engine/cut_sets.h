@@ -5,10 +5,10 @@
 #include <functional>
 #include <vector>
 
+#include "ask/group_search.h"
+#include "ask/situation_space.h"
 #include "cbc/event.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "verify/engine/group_search.h"
-#include "verify/engine/situation_space.h"
 
 // Faults that together make a task impossible: its minimal cut sets (docs/verify.md, "Cut sets").
 

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "ask/group_search.h"
+#include "ask/situation_space.h"
 #include "cbc/event.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/solver/problem.h"
-#include "verify/engine/group_search.h"
-#include "verify/engine/situation_space.h"
 
 // What each fault, and each change of the situation, does to each task: its failure modes and
 // effects (docs/verify.md, "Effects of faults").

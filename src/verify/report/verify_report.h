@@ -14,12 +14,12 @@
 #include "core/report/layout.h"
 #include "core/script/runner.h"
 #include "core/script/script.h"
+#include "explore/properties/verification.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "verify/engine/cut_sets.h"
 #include "verify/engine/effects.h"
 #include "verify/engine/overrides.h"
-#include "verify/engine/same_as.h"
-#include "verify/engine/verification.h"
+#include "versions/lockstep/same_as.h"
 
 // The reports of `cbc verify`.
 

@@ -24,11 +24,11 @@
 #include "core/yaml/document.h"
 #include "coverage/engine/goal_proof.h"
 #include "coverage/engine/mutants/mutants.h"
+#include "explore/moves/witness.h"
 #include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
-#include "verify/engine/same_as.h"
-#include "verify/engine/witness.h"
+#include "versions/lockstep/same_as.h"
 
 namespace cbc {
 namespace {

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "core/property/properties.h"
+#include "explore/model/model.h"
+
+namespace cbc {
+
+/// Whether a move is of one of the kinds, and is about one of their tasks.
+[[nodiscard]] bool is_of_kinds(const MoveKinds& kinds, const Model::Choice& choice,
+                               const Model& model);
+
+}  // namespace cbc

@@ -1,0 +1,497 @@
+// What the coordinator does with one event, as a function from a packed state to the next one: no
+// records, no names, no clock. Time is only an order. All reactive tasks wait equally long, so it
+// is enough to know in which order they joined the queue; and a timeout is a failure, which may
+// come at any moment. To keep the clocks, as timed automata do (R. Alur and D. L. Dill, "A theory
+// of timed automata", Theoretical Computer Science 126 (1994)), would rule out timeouts that cannot
+// come, for very many times as many states.
+//
+// A coordinator that resumes a snapshot could make each move as well, as it does in
+// goal_search.cpp, and nothing would be written twice. But explorations make millions of moves,
+// most of which need no more than a few words and an answer that Decisions remembers. Property
+// tests explore with coordinators as well, and compare.
+
+#include "explore/moves/stepper.h"
+
+#include <algorithm>
+
+namespace cbc {
+
+Stepper::Stepper(const Model& model, const Options& options)
+    : model_(model),
+      reduce_(options.reduce),
+      decisions_(model, options.decision_bytes, options.on_decision) {
+  const std::size_t values = words_for(model.value_count());
+  const std::size_t tasks = words_for(model.tasks().size());
+  const std::size_t behaviors = words_for(model.behaviors().size());
+  before_.cells.resize(model.layout().cells);
+  before_.values.resize(values);
+  before_.running.resize(tasks);
+  before_.active.resize(behaviors);
+  before_.possible.clear(model);
+  excluded_values_.resize(values);
+  domains_.resize(values);
+  present_.resize(values);
+  must_run_.resize(tasks);
+  values_after_.resize(model.tasks().size());
+  was_active_.resize(behaviors);
+  active_.resize(behaviors);
+  wanted_.resize(behaviors);
+  for (const Model::Group& group : model.groups()) {
+    auto& order = deactivation_order_.emplace_back();
+    for (std::uint32_t place = group.behaviors.begin; place < group.behaviors.end; ++place) {
+      order.push_back(place);
+    }
+    const auto level = [&](std::uint32_t behavior) {
+      return model.catalog().behaviors[model.behaviors()[behavior].id].level;
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](auto a, auto b) { return level(a) > level(b); });
+  }
+}
+
+// The state.
+
+void Stepper::load(const std::uint32_t* packed) {
+  model_.unpack(packed, before_.cells.data());
+  derive(before_, true);
+}
+
+void Stepper::load_control(const std::uint32_t* packed) {
+  model_.unpack(packed, before_.cells.data());
+  derive(before_, false);
+}
+
+void Stepper::derive(State& state, bool situation_too) const {
+  std::fill(state.values.begin(), state.values.end(), 0);
+  std::fill(state.running.begin(), state.running.end(), 0);
+  std::fill(state.active.begin(), state.active.end(), 0);
+  const auto& tasks = model_.tasks();
+  for (std::uint32_t task = 0; task < tasks.size(); ++task) {
+    const std::uint16_t cell = state.cells[task];
+    if (cell == 0) continue;
+    const std::uint32_t value = tasks[task].values.begin + cell - 1;
+    set_bit(state.values.data(), value);
+    set_bit(state.running.data(), task);
+    set_bit(state.active.data(), model_.behavior_of(value));
+  }
+  if (situation_too) derive_situation(state);
+}
+
+void Stepper::Possible::clear(const Model& model) {
+  for (std::vector<Word>* const behaviors : {&fitting, &available}) {
+    behaviors->assign(words_for(model.behaviors().size()), 0);
+  }
+  for (std::vector<Word>* const values : {&fitting_values, &available_values}) {
+    values->assign(words_for(model.value_count()), 0);
+  }
+}
+
+void Stepper::Possible::add(const Model& model, std::uint32_t behavior, bool is_available) {
+  set_bit(fitting.data(), behavior);
+  if (is_available) set_bit(available.data(), behavior);
+  for (const std::uint32_t value : model.behaviors()[behavior].values) {
+    set_bit(fitting_values.data(), value);
+    if (is_available) set_bit(available_values.data(), value);
+  }
+}
+
+void Stepper::Possible::remove_available(const Model& model, std::uint32_t behavior) {
+  clear_bit(available.data(), behavior);
+  for (const std::uint32_t value : model.behaviors()[behavior].values) {
+    clear_bit(available_values.data(), value);
+  }
+}
+
+void Stepper::Possible::remove(const Model& model, std::uint32_t behavior) {
+  remove_available(model, behavior);
+  clear_bit(fitting.data(), behavior);
+  for (const std::uint32_t value : model.behaviors()[behavior].values) {
+    clear_bit(fitting_values.data(), value);
+  }
+}
+
+void Stepper::derive_situation(State& state) const {
+  state.possible.clear(model_);
+  std::vector<Word>& fitting = state.possible.fitting;
+  std::fill(fitting.begin(), fitting.end(), ~Word{0});
+  for (std::uint32_t place = 0; place < model_.variables().size(); ++place) {
+    const auto& misfits = model_.variables()[place].misfits[value_of(state, place)];
+    for (std::size_t word = 0; word < misfits.size(); ++word) fitting[word] &= ~misfits[word];
+  }
+  for (std::uint32_t behavior = 0; behavior < model_.behaviors().size(); ++behavior) {
+    if (!has_bit(fitting.data(), behavior)) continue;
+    state.possible.add(model_, behavior, !is_denied(state, behavior));
+  }
+}
+
+bool Stepper::is_denied(const State& state, std::uint32_t behavior) const {
+  const std::uint32_t own = model_.behaviors()[behavior].own;
+  return own == none ? has_bit(model_.denied().data(), behavior)
+                     : state.cells[model_.layout().own + own] != 0;
+}
+
+std::uint32_t Stepper::value_of(const State& state, std::uint32_t variable) const {
+  const Model::Variable& described = model_.variables()[variable];
+  return described.cell == none ? described.initial : state.cells[described.cell];
+}
+
+Model::Rank Stepper::rank_in(const State& state, std::uint32_t task) const {
+  const Model::Layout& layout = model_.layout();
+  for (std::uint32_t place = 0; place < layout.request_count; ++place) {
+    const std::uint16_t cell = state.cells[layout.requests + place];
+    if (cell == 0) return 0;
+    if (cell == task + 1) return static_cast<Model::Rank>(state.cells[layout.ranks + place] + 1);
+  }
+  return 0;
+}
+
+bool Stepper::is_settled() const {
+  const auto first = before_.cells.begin() + model_.layout().queue;
+  return std::all_of(first, first + model_.layout().reactive_count,
+                     [](std::uint16_t set) { return set == 0; });
+}
+
+// Moves.
+
+bool Stepper::may_have_move(const Model::Choice& choice) const {
+  const std::uint32_t subject = choice.subject;
+  const bool is_active = choice.move.kind > Move::Kind::stop &&
+                         choice.move.kind < Move::Kind::fault &&
+                         has_bit(before_.active.data(), subject);
+  switch (choice.move.kind) {
+    case Move::Kind::start:
+      return true;
+    case Move::Kind::stop:
+      return before_.cells[subject] != 0 && request_of(subject) > 0;
+    case Move::Kind::success: {
+      if (!is_active) return false;
+      const auto& values = model_.behaviors()[subject].values;
+      return std::all_of(values.begin(), values.end(), [&](std::uint32_t value) {
+        return !has_bit(before_.values.data(), value) ||
+               model_.tasks()[model_.task_of(value)].achieves_goal;
+      });
+    }
+    case Move::Kind::failure:
+    case Move::Kind::situation_change:
+      return is_active;
+    case Move::Kind::due:
+      return !is_settled();
+    default:
+      return true;
+  }
+}
+
+bool Stepper::has_move(const Model::Choice& choice) const {
+  const std::uint32_t subject = choice.subject;
+  switch (choice.move.kind) {
+    case Move::Kind::situation_change:
+      return may_have_move(choice) && is_denied(subject);
+    case Move::Kind::fault: {
+      if (is_faulty(subject)) return false;
+      const Model::Layout& layout = model_.layout();
+      const auto first = before_.cells.begin() + layout.faulty;
+      const auto faulty = std::count(first, first + layout.faulty_count, std::uint16_t{1});
+      return static_cast<std::uint32_t>(faulty) < model_.assumptions().faults;
+    }
+    case Move::Kind::repair:
+      return is_faulty(subject);
+    case Move::Kind::variable:
+      return value_of(subject) != choice.choice;
+    case Move::Kind::together: {
+      const auto& values = model_.joint_changes()[subject].values;
+      return std::count_if(values.begin(), values.end(),
+                           [&](const auto& one) { return value_of(one.first) != one.second; }) >= 2;
+    }
+    default:
+      return may_have_move(choice);
+  }
+}
+
+bool Stepper::take(const Model::Choice& choice) {
+  now_ = before_;
+  accepted_ = false;
+  const Model::Layout& layout = model_.layout();
+  const std::uint32_t subject = choice.subject;
+  switch (choice.move.kind) {
+    case Move::Kind::fault:
+      now_.cells[layout.faulty + model_.behaviors()[subject].fault] = 1;
+      break;
+    case Move::Kind::repair:
+      now_.cells[layout.faulty + model_.behaviors()[subject].fault] = 0;
+      break;
+    case Move::Kind::variable:
+      now_.cells[model_.variables()[subject].cell] = static_cast<std::uint16_t>(choice.choice);
+      if (!enter_situation()) return false;
+      break;
+    case Move::Kind::own: {
+      std::uint16_t& cell = now_.cells[layout.own + subject];
+      cell = cell == 0 ? 1 : 0;
+      if (!enter_situation()) return false;
+      break;
+    }
+    case Move::Kind::together:
+      for (const auto& [variable, value] : model_.joint_changes()[subject].values) {
+        now_.cells[model_.variables()[variable].cell] = static_cast<std::uint16_t>(value);
+      }
+      if (!enter_situation()) return false;
+      break;
+    default:
+      break;
+  }
+  make(choice);
+  return true;
+}
+
+void Stepper::take_control(const Model::Choice& choice, const Possible& possible,
+                           EnvironmentOracle& environment) {
+  now_ = before_;
+  now_.possible = possible;
+  accepted_ = false;
+  environment_ = &environment;
+  make(choice);
+  environment_ = nullptr;
+}
+
+/// What comes of a move in the environment that it leads to.
+void Stepper::make(const Model::Choice& choice) {
+  const std::uint32_t subject = choice.subject;
+  switch (choice.move.kind) {
+    case Move::Kind::start: {
+      const auto rank = static_cast<Model::Rank>(choice.choice);
+      accepted_ = start(subject, static_cast<Model::Rank>(rank + 1), rank, false);
+      break;
+    }
+    case Move::Kind::stop:
+      accepted_ = stop(subject);
+      break;
+    case Move::Kind::success:
+      finish(subject, FinishCause::goal_achieved, Origin::script);
+      break;
+    case Move::Kind::failure:
+      finish(subject, FinishCause::process_failure, Origin::script);
+      break;
+    case Move::Kind::situation_change:
+      finish(subject, FinishCause::situation_change, Origin::script);
+      break;
+    case Move::Kind::fault:
+      break;
+    case Move::Kind::repair:
+      for (const std::uint32_t reactive :
+           model_.groups()[model_.behaviors()[subject].group].reactive) {
+        enqueue(reactive);
+      }
+      break;
+    case Move::Kind::variable:
+    case Move::Kind::own:
+    case Move::Kind::together:
+      adapt();
+      break;
+    case Move::Kind::due:
+      come_due();
+      break;
+  }
+  close_event();
+  settle_queue();
+  if (reduce_) merge_orders();
+}
+
+void Stepper::stay() {
+  now_ = before_;
+  joined_set_ = 0;
+}
+
+// Events.
+
+bool Stepper::start(std::uint32_t task, Model::Rank ranks, Model::Rank rank, bool is_reactive) {
+  open_event(Verb::start, is_reactive ? Origin::reactive : Origin::script, task);
+  // A rank + 1, so that "at least ranks + 1" is "higher than all below ranks".
+  if (rank_in(now_, task) > ranks) {
+    note_outcome(Outcome::rejected);
+    return false;
+  }
+  Trigger trigger;
+  trigger.kind = Trigger::Kind::start;
+  trigger.group = model_.tasks()[task].group;
+  trigger.task = task;
+  trigger.ranks = ranks;
+  trigger.rank = rank;
+  trigger.is_reactive = is_reactive;
+  const bool accepted = coordinate(trigger);
+  finish_lost();
+  return accepted;
+}
+
+/// The stop has the priority of the task's request, 0 if it has none.
+bool Stepper::stop(std::uint32_t task) {
+  open_event(Verb::stop, Origin::script, task);
+  if (now_.cells[task] == 0) return false;
+  Trigger trigger;
+  trigger.kind = Trigger::Kind::stop;
+  trigger.group = model_.tasks()[task].group;
+  trigger.task = task;
+  trigger.ranks = std::max<Model::Rank>(1, rank_in(now_, task));
+  const bool accepted = coordinate(trigger);
+  finish_lost();
+  return accepted;
+}
+
+void Stepper::finish(std::uint32_t behavior, FinishCause cause, Origin origin) {
+  open_event(Verb::finish, origin, behavior);
+  if (!has_bit(now_.active.data(), behavior)) return;
+  Trigger trigger;
+  trigger.kind = Trigger::Kind::finish;
+  trigger.group = model_.behaviors()[behavior].group;
+  trigger.behavior = behavior;
+  trigger.cause = cause;
+  accepted_ = coordinate(trigger);
+}
+
+/// Behaviors that a rollback could not activate again finish right after the rejected event.
+void Stepper::finish_lost() {
+  const bool accepted = accepted_;
+  while (!lost_.empty()) {
+    const std::uint32_t behavior = lost_.back();
+    lost_.pop_back();
+    finish(behavior, FinishCause::process_failure, Origin::fault);
+  }
+  accepted_ = accepted;
+}
+
+void Stepper::start_reactive(std::uint32_t reactive) {
+  const Model::Layout& layout = model_.layout();
+  const std::uint32_t task = model_.reactive()[reactive];
+  now_.cells[layout.queue + reactive] = 0;
+  std::uint16_t& waits = now_.cells[layout.waiting + reactive];
+  const BitRange values = model_.tasks()[task].values;
+  bool may_start = false;
+  if (!has_bit(now_.running.data(), task) && !excludes_running_task(task)) {
+    for (std::uint32_t value = values.begin; value < values.end && !may_start; ++value) {
+      may_start = has_bit(now_.possible.available_values.data(), value) &&
+                  is_available_now(model_.behavior_of(value));
+    }
+  }
+  if (!may_start) {
+    waits = 0;
+    return;
+  }
+  const bool waited = waits != 0;
+  const std::size_t events = trace_ != nullptr ? trace_->events.size() : 0;
+  // Whatever has a request is protected; see find_domains.
+  const bool accepted = start(task, 1, 0, true);
+  // An attempt that changes nothing is silent if the task waited before.
+  if (!accepted && waited && trace_ != nullptr && trace_->events.size() == events + 1 &&
+      trace_->events.back().changes.empty()) {
+    trace_->events.pop_back();
+  }
+}
+
+/// False if the new situation is excluded.
+bool Stepper::enter_situation() {
+  if (model_.is_excluded(now_.cells.data())) return false;
+  derive_situation(now_);
+  return true;
+}
+
+/// What follows a change of the situation.
+void Stepper::adapt() {
+  open_event(Verb::situation, Origin::script, none);
+  for (std::uint32_t group = 0; group < model_.groups().size(); ++group) {
+    const auto& reactive = model_.groups()[group].reactive;
+    const bool matters = std::any_of(reactive.begin(), reactive.end(),
+                                     [&](std::uint32_t one) { return may_enqueue(one); });
+    if (!matters || !gains(group)) continue;
+    for (const std::uint32_t one : reactive) enqueue(one);
+  }
+  for (const std::uint32_t behavior : model_.behaviors_in_order()) {
+    if (!has_bit(now_.active.data(), behavior) || fits(behavior)) continue;
+    finish(behavior, FinishCause::situation_change, Origin::situation);
+  }
+}
+
+// The environment.
+
+bool Stepper::fits(std::uint32_t behavior) {
+  if (!has_bit(now_.possible.fitting.data(), behavior)) return false;
+  if (is_confirmed(EnvironmentQuery::Kind::fits, behavior)) return true;
+  now_.possible.remove(model_, behavior);
+  return false;
+}
+
+bool Stepper::is_available_now(std::uint32_t behavior) {
+  if (!has_bit(now_.possible.available.data(), behavior)) return false;
+  if (is_confirmed(EnvironmentQuery::Kind::available, behavior)) return true;
+  now_.possible.remove_available(model_, behavior);
+  return false;
+}
+
+/// What is possible is so, unless there is an environment to ask.
+bool Stepper::is_confirmed(EnvironmentQuery::Kind kind, std::uint32_t behavior) const {
+  return environment_ == nullptr || environment_->holds({kind, behavior});
+}
+
+bool Stepper::is_faulty_now(std::uint32_t behavior) const {
+  const std::uint32_t fault = model_.behaviors()[behavior].fault;
+  if (fault == none) return false;
+  return environment_ != nullptr ? environment_->holds({EnvironmentQuery::Kind::faulty, behavior})
+                                 : now_.cells[model_.layout().faulty + fault] != 0;
+}
+
+/// Whether a behavior of the group has become available.
+bool Stepper::gains(std::uint32_t group) const {
+  if (environment_ != nullptr) return environment_->holds({EnvironmentQuery::Kind::gains, group});
+  const BitRange behaviors = model_.groups()[group].behaviors;
+  for (std::uint32_t behavior = behaviors.begin; behavior < behaviors.end; ++behavior) {
+    if (has_bit(now_.possible.available.data(), behavior) && !is_available(behavior)) return true;
+  }
+  return false;
+}
+
+/// The first set of the queue: its tasks one after the other in catalog order, as far as they are
+/// still in it by then.
+void Stepper::come_due() {
+  for (const std::uint32_t task : model_.tasks_in_order()) {
+    const std::uint32_t reactive = model_.tasks()[task].reactive;
+    if (reactive == none || now_.cells[model_.layout().queue + reactive] != 1) continue;
+    close_event();  // before this one leaves the queue, perhaps silently
+    start_reactive(reactive);
+  }
+}
+
+/// Counts the sets of the queue from 1 again; those that joined now are the last.
+void Stepper::settle_queue() {
+  const Model::Layout& layout = model_.layout();
+  std::uint16_t* const sets = now_.cells.data() + layout.queue;
+  std::uint16_t last = 0;
+  joined_set_ = 0;
+  for (;;) {
+    std::uint16_t next = 0;
+    for (std::uint32_t place = 0; place < layout.reactive_count; ++place) {
+      if (sets[place] > last && (next == 0 || sets[place] < next)) next = sets[place];
+    }
+    if (next == 0) return;
+    ++last;
+    if (next == joined_now) joined_set_ = last;
+    if (next == last) continue;
+    for (std::uint32_t place = 0; place < layout.reactive_count; ++place) {
+      if (sets[place] == next) sets[place] = last;
+    }
+  }
+}
+
+/// Sorts requests of equal priority by interaction class, and keeps the order in each class.
+void Stepper::merge_orders() {
+  const Model::Layout& layout = model_.layout();
+  const auto& classes = model_.interaction_classes();
+  std::uint16_t* const requests = now_.cells.data() + layout.requests;
+  const std::uint16_t* const ranks = now_.cells.data() + layout.ranks;
+  for (std::uint32_t end = 1; end < layout.request_count && requests[end] != 0; ++end) {
+    for (std::uint32_t place = end;
+         place > 0 && ranks[place] == ranks[place - 1] &&
+         classes[requests[place] - 1U] < classes[requests[place - 1] - 1U];
+         --place) {
+      std::swap(requests[place], requests[place - 1]);
+    }
+  }
+}
+
+}  // namespace cbc

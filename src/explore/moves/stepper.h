@@ -1,0 +1,260 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cbc/event.h"
+#include "explore/model/model.h"
+#include "explore/moves/decisions.h"
+
+namespace cbc {
+
+/// What the events of one move did, as far as it can be observed. For comparing two catalogs.
+struct MoveTrace {
+  struct Change {
+    std::uint32_t behavior = 0;  ///< as the model counts them
+    bool is_activation = false;
+    bool success = true;
+  };
+  struct Happening {
+    Verb verb = Verb::start;
+    Origin origin = Origin::script;
+    std::uint32_t subject = none;  ///< task of start and stop, behavior of finish; none: situation
+    Outcome outcome = Outcome::unchanged;
+    std::vector<Change> changes;
+    std::vector<std::pair<std::uint32_t, FinishCause>> stopped;  ///< tasks
+    std::vector<std::uint16_t> queue;    ///< by reactive task: its set, or 0
+    std::vector<std::uint16_t> waiting;  ///< by reactive task
+    bool is_closed = false;              ///< nothing is added any more
+  };
+  std::vector<Happening> events;
+};
+
+/// What a move may ask about the environment that it leads to: the situation, and what is faulty.
+struct EnvironmentQuery {
+  enum class Kind : std::uint8_t {
+    fits,       ///< the behavior
+    available,  ///< the behavior
+    faulty,     ///< the behavior
+    gains       ///< a behavior of the group (its place in Model::groups) has become available
+  };
+  Kind kind = Kind::fits;
+  std::uint32_t subject = 0;
+};
+
+/// Stands for the environment where it is not part of a state.
+class EnvironmentOracle {
+ public:
+  virtual ~EnvironmentOracle() = default;
+  [[nodiscard]] virtual bool holds(EnvironmentQuery query) = 0;
+};
+
+/// Takes a state from one move to the next (docs/verify.md, "Moves"): the coordinator's events on
+/// packed states, without records. Not for use by several threads.
+///
+/// Or only its control: all but the environment, which is asked about where a decision depends on
+/// it. A decision is first made as if all were available that is not known to be unavailable. If
+/// what it uses is available, it is the decision: the best of more choices is the best of fewer
+/// that it is one of, and where more have no solution, fewer have none.
+class Stepper {
+ public:
+  struct Options {
+    bool reduce = false;                                 ///< see ExplorationOptions
+    std::size_t decision_bytes = std::size_t{64} << 20;  ///< for remembered decisions
+    DecisionListener on_decision = {};                   ///< may be empty
+  };
+
+  Stepper(const Model& model, const Options& options);
+  explicit Stepper(const Model& model) : Stepper(model, Options()) {}
+
+  /// Takes up a state. `packed` is read at once.
+  void load(const std::uint32_t* packed);
+
+  /// Whether the state has this move.
+  [[nodiscard]] bool has_move(const Model::Choice& choice) const;
+  /// Makes a move from the state that load took up. False: the move leads into an excluded
+  /// situation and does not exist. Of start: was_accepted() tells the outcome.
+  bool take(const Model::Choice& choice);
+  /// The same if the state has the move; otherwise false, too.
+  bool try_move(const Model::Choice& choice) { return has_move(choice) && take(choice); }
+  /// All moves that some state may have, in order.
+  [[nodiscard]] const std::vector<Model::Choice>& choices() const { return model_.moves(); }
+  /// The move that a choice stands for in the loaded state.
+  [[nodiscard]] Move move_of(const Model::Choice& choice) const {
+    Move move = choice.move;
+    if (move.kind == Move::Kind::own) move.choice = cells()[model_.layout().own + choice.subject];
+    return move;
+  }
+  [[nodiscard]] bool was_accepted() const { return accepted_; }
+  /// Which behaviors fit or are available in some environment, and the values that they perform.
+  struct Possible {
+    std::vector<Word> fitting;    ///< behaviors
+    std::vector<Word> available;  ///< behaviors
+    std::vector<Word> fitting_values;
+    std::vector<Word> available_values;
+
+    void clear(const Model& model);
+    /// The behavior fits.
+    void add(const Model& model, std::uint32_t behavior, bool is_available);
+    void remove_available(const Model& model, std::uint32_t behavior);
+    void remove(const Model& model, std::uint32_t behavior);
+  };
+  /// Takes up a control.
+  void load_control(const std::uint32_t* packed);
+  /// Whether a control has this move in some environment.
+  [[nodiscard]] bool may_have_move(const Model::Choice& choice) const;
+  /// Makes a move from the control that load took up, of which the environment cells do not count;
+  /// of a repair what comes of it besides. `possible`: after the move.
+  void take_control(const Model::Choice& choice, const Possible& possible,
+                    EnvironmentOracle& environment);
+
+  /// Instead of a move: leaves the state as it is.
+  void stay();
+  /// Whether the reactive task joined the queue in the move.
+  [[nodiscard]] bool has_joined(std::uint32_t reactive) const {
+    return now_.cells[model_.layout().queue + reactive] == joined_set_ && joined_set_ != 0;
+  }
+  /// Writes the state after the move.
+  void pack(std::uint32_t* packed) const { model_.pack(now_.cells.data(), packed); }
+  /// The cells of the state after the move.
+  [[nodiscard]] const std::uint16_t* cells_after() const { return now_.cells.data(); }
+
+  /// Records what moves do from now on; null: nothing.
+  void set_trace(MoveTrace* trace) { trace_ = trace; }
+
+  // The state that load took up.
+
+  [[nodiscard]] const std::uint16_t* cells() const { return before_.cells.data(); }
+  [[nodiscard]] const std::vector<Word>& running() const { return before_.running; }
+  [[nodiscard]] const std::vector<Word>& active() const { return before_.active; }
+  [[nodiscard]] const std::vector<Word>& values() const { return before_.values; }
+  [[nodiscard]] bool is_available(std::uint32_t behavior) const {
+    return has_bit(before_.possible.available.data(), behavior);
+  }
+  [[nodiscard]] bool is_faulty(std::uint32_t behavior) const {
+    const std::uint32_t fault = model_.behaviors()[behavior].fault;
+    return fault != none && cells()[model_.layout().faulty + fault] != 0;
+  }
+  /// Whether own(b) is false.
+  [[nodiscard]] bool is_denied(std::uint32_t behavior) const {
+    return is_denied(before_, behavior);
+  }
+  [[nodiscard]] std::uint32_t value_of(std::uint32_t variable) const {
+    return value_of(before_, variable);
+  }
+  [[nodiscard]] bool is_settled() const;
+  /// The rank of the task's request, plus 1; 0: none.
+  [[nodiscard]] Model::Rank request_of(std::uint32_t task) const { return rank_in(before_, task); }
+
+  [[nodiscard]] const Decisions& decisions() const { return decisions_; }
+
+ private:
+  /// A state: its cells, and bit sets that follow from them.
+  struct State {
+    std::vector<std::uint16_t> cells;
+    std::vector<Word> values;   ///< that tasks have
+    std::vector<Word> running;  ///< tasks
+    std::vector<Word> active;   ///< behaviors
+    Possible possible;          ///< in its environment, or what is not known to be impossible
+  };
+  struct Trigger {
+    enum class Kind : std::uint8_t { start, stop, finish };
+    Kind kind = Kind::start;
+    std::uint32_t group = 0;
+    std::uint32_t task = none;
+    std::uint32_t behavior = none;
+    FinishCause cause = FinishCause::goal_achieved;
+    Model::Rank ranks = 0;  ///< of start and stop: requests of ranks below it are not protected
+    Model::Rank rank = 0;   ///< of start: that of its request
+    bool is_reactive = false;
+  };
+
+  /// The set of a task that has joined the queue during the present move.
+  static constexpr std::uint16_t joined_now = UINT16_MAX;
+
+  void derive(State& state, bool situation_too) const;
+  void derive_situation(State& state) const;
+  [[nodiscard]] bool is_denied(const State& state, std::uint32_t behavior) const;
+  [[nodiscard]] std::uint32_t value_of(const State& state, std::uint32_t variable) const;
+  [[nodiscard]] Model::Rank rank_in(const State& state, std::uint32_t task) const;
+
+  bool coordinate(const Trigger& trigger);
+  [[nodiscard]] const Word* solve(const Trigger& trigger, Model::Rank first_ranks);
+  [[nodiscard]] const Word* ask(const Trigger& trigger, Model::Rank ranks);
+  void find_domains(const Trigger& trigger);
+  [[nodiscard]] bool is_possible(const Trigger& trigger, const Word* solution);
+  [[nodiscard]] bool has_known_order(const Trigger& trigger, const Word* solution);
+  [[nodiscard]] bool may_have(const Trigger& trigger, std::uint32_t value);
+  [[nodiscard]] bool fits(std::uint32_t behavior);
+  [[nodiscard]] bool is_available_now(std::uint32_t behavior);
+  [[nodiscard]] bool is_confirmed(EnvironmentQuery::Kind kind, std::uint32_t behavior) const;
+  [[nodiscard]] bool is_faulty_now(std::uint32_t behavior) const;
+  [[nodiscard]] bool gains(std::uint32_t group) const;
+  void rank_requests(const Trigger& trigger);
+  [[nodiscard]] bool has_finished(const Trigger& trigger, std::uint32_t task) const {
+    if (trigger.kind != Trigger::Kind::finish || now_.cells[task] == 0) return false;
+    const std::uint32_t value = model_.tasks()[task].values.begin + now_.cells[task] - 1;
+    return model_.behavior_of(value) == trigger.behavior;
+  }
+  [[nodiscard]] Model::Rank first_protection(const Trigger& trigger) const;
+  void find_wanted(const Word* solution);
+  [[nodiscard]] std::uint32_t first_failure() const;
+  void reject(const Trigger& trigger);
+  void accept(const Trigger& trigger, const Word* solution);
+  void update_requests(const Trigger& trigger);
+  void update_queue(const Trigger& trigger);
+  void retry_waiting(std::uint32_t group);
+  [[nodiscard]] bool may_enqueue(std::uint32_t reactive) const;
+  void enqueue(std::uint32_t reactive);
+  [[nodiscard]] bool excludes_running_task(std::uint32_t task) const;
+
+  bool start(std::uint32_t task, Model::Rank ranks, Model::Rank rank, bool is_reactive);
+  bool stop(std::uint32_t task);
+  void finish(std::uint32_t behavior, FinishCause cause, Origin origin);
+  void finish_lost();
+  void start_reactive(std::uint32_t reactive);
+  [[nodiscard]] bool enter_situation();
+  void adapt();
+  void make(const Model::Choice& choice);
+  void come_due();
+  void settle_queue();
+  void merge_orders();
+
+  void open_event(Verb verb, Origin origin, std::uint32_t subject);
+  void note_outcome(Outcome outcome);
+  void note_changes(const Word* wanted, std::uint32_t group, std::uint32_t failing);
+  void note_stop(std::uint32_t task, FinishCause cause);
+  void close_event();
+
+  const Model& model_;
+  const bool reduce_;
+  Decisions decisions_;
+  State before_;  ///< as loaded
+  State now_;     ///< as the move leaves it
+  bool accepted_ = false;
+  std::uint16_t joined_set_ = 0;  ///< the set that joined the queue in the move; 0: none
+
+  // Of the event.
+  std::vector<Word> excluded_values_;
+  bool has_excluded_ = false;
+  std::vector<Word> domains_;
+  std::vector<Word> present_;
+  std::vector<Word> must_run_;
+  std::vector<std::uint16_t> requests_;
+  std::vector<Word> was_active_;  ///< before the event, without a behavior that has finished
+  std::vector<Word> active_;      ///< in the course of the event
+  std::vector<Word> wanted_;      ///< by the solution
+  std::vector<std::uint16_t> values_after_;  ///< by task, as cells
+  std::vector<std::uint32_t> stopped_;
+  std::vector<std::uint32_t> stopped_by_others_;
+  std::vector<std::uint32_t> started_;
+  std::vector<std::uint32_t> lost_;  ///< behaviors of a failed rollback; the last finishes next
+
+  std::vector<std::vector<std::uint32_t>> deactivation_order_;  ///< by group
+  MoveTrace* trace_ = nullptr;
+  EnvironmentOracle* environment_ = nullptr;  ///< null: the state has it
+};
+
+}  // namespace cbc
