@@ -205,10 +205,8 @@ void add_compile_command(Program& program) {
       .argument("CATALOG", options->catalog, input("", ValueKind::catalog),
                 "The catalog: a YAML file, or - for standard input")
       .required();
-  command
-      .option("-o,--output", options->output, output("OUT"),
-              "The file to write, or - for standard output (default: CATALOG with the suffix "
-              ".cbc)")
+  command.output_option(options->output)
+      .without("CATALOG with the suffix .cbc")
       .not_with({"--dump"}, "it writes to standard output");
   command.flag("--check", options->check, "Write nothing; check that the file is up to date")
       .not_with({"--output -"}, "it checks a file");

@@ -90,13 +90,11 @@ void add_coverage_command(Program& program) {
                    "The catalog, unless the scripts name it; then event scripts, folders of them, "
                    "or - for standard input");
   command.format_option(options->format, formats);
-  command.option("-o,--output", options->output, output("OUT"),
-                 "The file to write, or - for standard output (default)");
+  command.output_option(options->output);
   command.option("--fail-under", options->fail_under, percent(),
                  "Exit with 1 if fewer goals are met than this");
   command.flag("--merge", options->merge, "Merge the JSON results of several runs");
-  command.option("-j,--jobs", options->jobs, whole_number("N", 1),
-                 "Run N scripts at once (default: all processors)");
+  command.jobs_option(options->jobs, "Run N scripts at once");
   command.add_confinement();
 
   command.group("Proofs");

@@ -116,10 +116,12 @@ std::uint32_t group_count(const draw::CatalogGraph& graph) {
 void add_drawing_options(Command& command, DrawingOptions& options) {
   command.group("Drawing");
   constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max();
-  command.option(
-      "--view", options.view,
-      one_of("VIEW", {"full", "tasks", "constraints", "behaviors", "together", "situation"}),
-      "full (default), tasks, behaviors, constraints; or a table: together, situation");
+  command
+      .option(
+          "--view", options.view,
+          one_of("VIEW", {"full", "tasks", "constraints", "behaviors", "together", "situation"}),
+          "full, tasks, behaviors, constraints; or a table: together, situation")
+      .without("full");
   command.option("--exclusivity", options.exclusivity, one_of("STYLE", {"pairs", "hubs", "none"}),
                  "Draw exclusive tasks as pairs, hubs or none");
   command.option("--cluster", options.cluster, one_of("KIND", {"packages", "groups", "none"}),
@@ -131,7 +133,7 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
   command.group("Part");
   command
       .option("--task", options.tasks, name_of("NAME", ValueKind::task),
-              "Draw only what is around this task; repeatable")
+              "Draw only what is around this task")
       .not_with({"--group"});
   command.flag("--up", options.up, "Only what requires that task").only_with({"--task"});
   command.flag("--down", options.down, "Only what that task requires").only_with({"--task"});
@@ -591,8 +593,6 @@ int run_graph(const GraphCommand& command) {
 
 void add_graph_command(Program& program) {
   std::vector<std::string> formats = names_in(graph_formats());
-  const std::string format_help =
-      fmt::format("{} or {} (default: by the suffix of OUT)", join(formats, ", "), text_format);
   formats.emplace_back(text_format);
   const auto options = std::make_shared<GraphCommand>();
   Command& command = program.add_command(
@@ -603,11 +603,11 @@ void add_graph_command(Program& program) {
   command.flag("--diff", options->is_diff, "Show the differences between two catalogs");
   command
       .option("--renamed", options->renamed, old_and_new_name(),
-              "With --diff: OLD is called NEW now; repeatable")
+              "With --diff: OLD is called NEW now")
       .only_with({"--diff"});
-  command.option("-o,--output", options->output, output("OUT"),
-                 "The file to write, or - for standard output (default)");
-  command.option("--format", options->format, one_of("FORMAT", formats), format_help);
+  command.output_option(options->output);
+  command.option("--format", options->format, one_of("FORMAT", formats), join_with_or(formats))
+      .without("by the suffix of OUT");
   command.add_confinement();
   add_drawing_options(command, options->drawing);
   add_state_options(command, options->state);

@@ -27,16 +27,15 @@ void add_help_command(Program& program) {
   const auto name = std::make_shared<std::optional<std::string>>();
   Command& command = program.add_command("help", "Prints the help of a command.",
                                          {{"[COMMAND]"}, help_examples, help_footer});
-  Values names;
-  names.expected = "a command";
-  names.names = [&program] {
+  const auto names = [&program] {
     std::vector<NameWithHelp> all;
     for (const Command& known : program.commands()) {
       all.push_back({known.name(), known.description()});
     }
     return all;
   };
-  command.argument("COMMAND", *name, names, "The command; without it, the program itself");
+  command.argument("COMMAND", *name, {"", "a command", {}, names},
+                   "The command; without it, the program itself");
   command.action([name, &program] {
     const Command* const asked = *name ? program.find(**name) : &program.itself();
     if (asked == nullptr) return usage_error("", describe_unknown_command(program, **name));

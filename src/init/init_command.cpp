@@ -139,19 +139,12 @@ int init(const std::string& folder) {
 }  // namespace
 
 void add_init_command(Program& program) {
-  const auto folder = std::make_shared<std::string>(".");
+  const auto target = std::make_shared<std::string>(".");
   Command& command = program.add_command(
       "init", "Writes a first catalog and mission, with what an editor and CI need.",
       {{"[FOLDER]"}, init_examples, init_footer});
-  Values values;
-  values.placeholder = "";
-  values.expected = "a folder";
-  values.kind = ValueKind::file;
-  values.check = [](const std::string& text) {
-    return std::string(text.empty() ? "expected the name of a folder" : "");
-  };
-  command.argument("FOLDER", *folder, values, "Where to write the files (default: here)");
-  command.action([folder] { return init(*folder); });
+  command.argument("FOLDER", *target, folder(""), "Where to write the files");
+  command.action([target] { return init(*target); });
 }
 
 }  // namespace cbc::cli

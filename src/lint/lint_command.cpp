@@ -168,7 +168,7 @@ void add_lint_command(Program& program) {
                    "Catalogs, and scripts and property files that name theirs; folders of them; - "
                    "for standard input");
   command.option("--script", options->scripts, input("FILE", ValueKind::script),
-                 "Also check this script or property file; repeatable");
+                 "Also check this script or property file");
   command.format_option(options->format, formats);
   command.flag("--summary", options->summary, "Show figures of each catalog, compiled ones too")
       .only_with_values("--format", {"text", "json"});
@@ -179,22 +179,18 @@ void add_lint_command(Program& program) {
   command.option("--stdin-filename", options->stdin_filename, name_of("NAME", ValueKind::file),
                  "Name of standard input in messages, for .cbc.yaml");
   command.option("--max-nodes", options->max_nodes, whole_number("N", 1),
-                 "Decisions for the proof of a finding (default: 100000)");
+                 "Decisions for the proof of a finding");
   command.add_confinement();
 
   command.group("Rules");
-  Values rule;
-  rule.placeholder = "RULE";
-  rule.expected = "a rule";
-  rule.names = [] {
-    std::vector<NameWithHelp> names;
+  const auto names = [] {
+    std::vector<NameWithHelp> all;
     for (const Rule& known : all_rules()) {
-      names.push_back({std::string(known.name), std::string(known.summary)});
+      all.push_back({std::string(known.name), std::string(known.summary)});
     }
-    return names;
+    return all;
   };
-  Values rules = rule;
-  rules.placeholder = "RULE,...";
+  const Values rules{"RULE,...", "a rule", {}, names};
   command.option("--error", options->severities.error, rules, "Report findings of a rule as errors")
       .separated_by(',');
   command.option("--warn", options->severities.warn, rules, "Report findings of a rule as warnings")
@@ -207,7 +203,7 @@ void add_lint_command(Program& program) {
       .separated_by(',');
   command.flag("--strict", options->severities.strict, "Also fail on warnings");
   const std::string only_explains = "it describes rules and checks no files";
-  command.option("--explain", options->explain, rule, "Explain a rule")
+  command.option("--explain", options->explain, {"RULE", "a rule", {}, names}, "Explain a rule")
       .not_with({"CATALOG", "--script"}, only_explains)
       .only_with_values("--format", {"text"});
   command.flag("--list-rules", options->list_rules, "List all rules")

@@ -16,7 +16,7 @@ constexpr const char* lsp_footer =
     "An editor shows the findings of 'cbc lint' while you type, completes and explains names and "
     "keys, goes to definitions, renames, and shows what each event of a mission does.\n"
     "\n"
-    "Exit status: 0 the editor has ended it, 1 the editor is gone.\n"
+    "Exit status: 0 the editor has ended it, 1 the editor is gone, 2 the usage is wrong.\n"
     "\n"
     "Read more: man cbc-lsp, docs/editors.md (how to set up an editor)";
 

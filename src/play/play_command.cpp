@@ -57,21 +57,19 @@ constexpr std::string_view properties = "properties";
 using EditedFiles = std::map<std::string, EditedFile, std::less<>>;
 
 Values loopback_address() {
-  Values values;
-  values.placeholder = "ADDRESS:PORT";
-  values.expected = "ADDRESS:PORT";
-  values.names = [] {
-    return std::vector<NameWithHelp>{{serve::default_address, "the default"},
-                                     {"127.0.0.1:0", "a free port"}};
-  };
-  values.check = [](const std::string& text) -> std::string {
-    const auto address = serve::read_address(text);
-    if (address && serve::is_loopback(address->host)) return {};
-    return fmt::format(
-        "expected a numeric ADDRESS:PORT of this machine alone, such as {} or [::1]:0, found {}",
-        serve::default_address, quote(text));
-  };
-  return values;
+  return {"ADDRESS:PORT", "ADDRESS:PORT",
+          [](const std::string& text) -> std::string {
+            const auto address = serve::read_address(text);
+            if (address && serve::is_loopback(address->host)) return {};
+            return fmt::format(
+                "expected a numeric ADDRESS:PORT of this machine alone, such as {} or [::1]:0, "
+                "found {}",
+                serve::default_address, quote(text));
+          },
+          [] {
+            return std::vector<NameWithHelp>{{serve::default_address, "the default"},
+                                             {"127.0.0.1:0", "a free port"}};
+          }};
 }
 
 /// What a file is for the page; empty if it is nothing, which is printed.
@@ -227,8 +225,7 @@ void add_play_command(Program& program) {
       .argument("FILE", options->paths, input("...", ValueKind::catalog_or_script),
                 "A catalog; perhaps an event script and a property file")
       .required();
-  command.option("--address", options->address, loopback_address(),
-                 fmt::format("Where to serve it (default: {})", serve::default_address));
+  command.option("--address", options->address, loopback_address(), "Where to serve it");
   command.add_confinement();
   command.action([options] { return play(*options); });
 }

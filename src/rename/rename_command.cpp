@@ -45,7 +45,7 @@ void add_rename_command(Program& program) {
       .required();
   command.flag("--diff", options->diff, "Show what would change, as a diff, and change nothing");
   command.option("--max-states", options->max_states, whole_number("N", 1),
-                 "End the proof after N pairs of states (default: 10000)");
+                 "End the proof after N pairs of states");
   command.add_confinement();
   command.action([options] { return rename(*options); });
 }

@@ -73,16 +73,15 @@ void add_schema_command(Program& program) {
   const auto name = std::make_shared<std::optional<std::string>>();
   Command& command = program.add_command("schema", "Prints the JSON Schema of a file of cbc.",
                                          {{"[NAME]"}, schema_examples, schema_footer});
-  Values names;
-  names.expected = "a schema";
-  names.names = [] {
+  const auto names = [] {
     std::vector<NameWithHelp> all;
     for (const EmbeddedFile& schema : schema_files) {
       all.push_back({std::string(schema.name), title_of(schema)});
     }
     return all;
   };
-  command.argument("NAME", *name, names, "The schema to print; without it, all are listed");
+  command.argument("NAME", *name, {"", "a schema", {}, names},
+                   "The schema to print; without it, all are listed");
   command.action([name] { return *name ? print_schema(**name) : list_schemas(); });
 }
 

@@ -81,22 +81,20 @@ constexpr const char* solve_footer =
     "Read more: man cbc-solve, man cbc-events (how to write a script)";
 
 Values page_address() {
-  Values values;
-  values.placeholder = "[ADDRESS:PORT]";
-  values.expected = "ADDRESS:PORT";
-  values.names = [] {
-    return std::vector<NameWithHelp>{{serve::default_address, "this machine only"},
-                                     {"127.0.0.1:0", "a free port"},
-                                     {"0.0.0.0:8227", "also for other machines"}};
-  };
-  values.check = [](const std::string& text) -> std::string {
-    if (serve::read_address(text)) return {};
-    return fmt::format(
-        "expected a numeric ADDRESS:PORT (such as {}, [::1]:0, or 0.0.0.0:8080 for all networks), "
-        "found {}; without a value, --serve stands last or before another option",
-        serve::default_address, quote(text));
-  };
-  return values;
+  return {"[ADDRESS:PORT]", "ADDRESS:PORT",
+          [](const std::string& text) -> std::string {
+            if (serve::read_address(text)) return {};
+            return fmt::format(
+                "expected a numeric ADDRESS:PORT (such as {}, [::1]:0, or 0.0.0.0:8080 for all "
+                "networks), "
+                "found {}; without a value, --serve stands last or before another option",
+                serve::default_address, quote(text));
+          },
+          [] {
+            return std::vector<NameWithHelp>{{serve::default_address, "this machine only"},
+                                             {"127.0.0.1:0", "a free port"},
+                                             {"0.0.0.0:8227", "also for other machines"}};
+          }};
 }
 
 int solve(const SolveOptions& options) {
@@ -120,7 +118,7 @@ void add_reasons(Command& command, ExplainOptions& options) {
   command.group("Reasons");
   for (Option* const option :
        {&command.option("--why", options.why, name_of("NAME", ValueKind::task_or_behavior),
-                        "Why a task or behavior is as it is, at each event"),
+                        "Why a task or behavior is as it is"),
         &command.option("--alternatives", options.alternatives,
                         whole_number("K", 1, most_alternatives),
                         "The K best configurations at each event")}) {
@@ -133,9 +131,8 @@ void add_what_if(Command& command, WhatIfOptions& options) {
       .only_with_values("--format", {"text", "json"})
       .not_with({"--html", "--brief", "--stats", "--jobs", "--why", "--alternatives", "--replay"},
                 "it reports moves from one state, not a run");
-  command
-      .option("--after", options.after, whole_number("N", 0),
-              "After its event N (default: the last one)")
+  command.option("--after", options.after, whole_number("N", 0), "After its event N")
+      .without("the last one")
       .only_with({"--what-if"});
 }
 
@@ -152,7 +149,7 @@ void add_stream_options(Command& command, StreamOptions& options) {
       .only_with({"--format jsonl"});
   command
       .option("--clock", options.clock, one_of("CLOCK", {"events", "real"}),
-              "Time of lines without one: events (default) or real")
+              "What moves time: events or real")
       .only_with({"--format jsonl"})
       .not_with({"--replay"}, "a replay takes its times from the log");
   command.option("--serve", options.serve, page_address(), "Show the stream in a browser")
@@ -189,8 +186,7 @@ void add_solve_command(Program& program) {
   command.format_option(options->format, formats);
   command.option("--html", options->html, further_output("FILE"),
                  "Also write a page with a timeline");
-  command.option("-j,--jobs", options->jobs, whole_number("N", 1),
-                 "Run N scripts at once (default: all processors)");
+  command.jobs_option(options->jobs, "Run N scripts at once");
   command.flag("--brief", options->brief, "Write one line for each event, no table")
       .only_with_values("--format", {"text", "github"});
   command.flag("--stats", options->stats, "Show the cost of searches, memory and time")
@@ -206,11 +202,6 @@ void add_solve_command(Program& program) {
                  "End the search of an event after this time");
   add_stream_options(command, options->stream);
 
-  command.moved({"--sweep", "--seed", "--events", "--priorities", "--failures", "--faults",
-                 "--shard", "--slowest", "--slowest-by-time"},
-                "'cbc sweep'");
-  command.moved({"--coverage", "--fail-under", "--prove", "--assume"}, "'cbc coverage'");
-  command.moved({"--merge"}, "'cbc sweep' or 'cbc coverage'");
   command.action([options] { return solve(*options); });
 }
 

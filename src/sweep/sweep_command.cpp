@@ -48,15 +48,11 @@ Decimal parse_probability(const std::string& text) {
 }
 
 Values probability() {
-  Values values;
-  values.placeholder = "SHARE";
-  values.expected = "a number from 0 to 1";
-  values.check = [](const std::string& text) -> std::string {
-    if (parse_probability(text).error == DecimalError::no_error) return {};
-    return fmt::format("expected a number from 0 to 1, with at most 6 decimals, found {}",
-                       quote(text));
-  };
-  return values;
+  return {"SHARE", "a number from 0 to 1", [](const std::string& text) -> std::string {
+            if (parse_probability(text).error == DecimalError::no_error) return {};
+            return fmt::format("expected a number from 0 to 1, with at most 6 decimals, found {}",
+                               quote(text));
+          }};
 }
 
 /// "2/8"; empty if it is none.
@@ -74,15 +70,12 @@ std::optional<SweepShard> parse_shard(const std::string& text) {
 }
 
 Values shard_of_sweep() {
-  Values values;
-  values.placeholder = "I/N";
-  values.expected = "a shard, such as 1/8";
-  values.check = [](const std::string& text) -> std::string {
-    if (parse_shard(text)) return {};
-    return fmt::format("expected I/N, such as 3/8, with I from 1 to N and N at most {}, found {}",
-                       most_shards, quote(text));
-  };
-  return values;
+  return {"I/N", "a shard, such as 1/8", [](const std::string& text) -> std::string {
+            if (parse_shard(text)) return {};
+            return fmt::format(
+                "expected I/N, such as 3/8, with I from 1 to N and N at most {}, found {}",
+                most_shards, quote(text));
+          }};
 }
 
 SweepSettings settings_of(const SweepOptions& options) {
@@ -264,8 +257,7 @@ void add_sweep_command(Program& program) {
   command.argument("CATALOG", options->paths, input("", ValueKind::catalog),
                    "The catalog: YAML or compiled, or - for standard input");
   command.format_option(options->format, formats);
-  command.option("-j,--jobs", options->jobs, whole_number("N", 1),
-                 "Run N sequences at once (default: all processors)");
+  command.jobs_option(options->jobs, "Run N sequences at once");
   command.flag("--stats", options->stats, "Also report times");
   command.option("--slowest", options->slowest, further_output("FILE"),
                  "Write the event with the most nodes as a script");
@@ -280,9 +272,7 @@ void add_sweep_command(Program& program) {
       .option("--against", options->against, input("OLD", ValueKind::catalog),
               "Report what CATALOG and OLD decide differently")
       .not_with({"--merge"}, "the shards were compared already");
-  command
-      .option("--renamed", options->renamed, old_and_new_name(),
-              "OLD is called NEW in CATALOG; repeatable")
+  command.option("--renamed", options->renamed, old_and_new_name(), "OLD is called NEW in CATALOG")
       .only_with({"--against"});
   command
       .flag("--allow-missing", options->allow_missing, "What only one of them has does not count")
@@ -295,16 +285,13 @@ void add_sweep_command(Program& program) {
   const auto add = [&](const char* name, auto& target, Values values, const char* help) {
     command.option(name, target, std::move(values), help).not_with({"--merge"});
   };
-  add("--sequences", options->sequences, whole_number("N", 1, most_sequences),
-      "Run N sequences (default: 1000)");
-  add("--seed", options->seed, whole_number("S", 0), "Seed of the sequences (default: 1)");
-  add("--events", options->events, whole_number("E", 1, most_events),
-      "Events in each sequence (default: 100)");
+  add("--sequences", options->sequences, whole_number("N", 1, most_sequences), "Run N sequences");
+  add("--seed", options->seed, whole_number("S", 0), "Seed of the sequences");
+  add("--events", options->events, whole_number("E", 1, most_events), "Events in each sequence");
   add("--priorities", options->priorities, whole_number("P", 1, 1'000'000),
-      "Priorities of requests, from 1 to P (default: 3)");
-  add("--failures", options->failures, probability(),
-      "Share of finishes that are failures (default: 0.3)");
-  add("--faults", options->faults, probability(), "Share of faults and situations (default: 0.1)");
+      "Priorities of requests, from 1 to P");
+  add("--failures", options->failures, probability(), "Share of finishes that are failures");
+  add("--faults", options->faults, probability(), "Share of faults and situations");
   add("--shard", options->shard, shard_of_sweep(), "Run only shard I of N");
 
   command.group("Search");

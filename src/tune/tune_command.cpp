@@ -42,8 +42,7 @@ void add_tune_command(Program& program) {
                  "Only the numbers of this behavior for this task");
   command.option("--fail-under", options->fail_under, percent(),
                  "Exit with 1 if a number may be wrong by less than this");
-  command.option("-j,--jobs", options->jobs, whole_number("N", 1),
-                 "Look at N numbers at once (default: all processors)");
+  command.jobs_option(options->jobs, "Look at N numbers at once");
   command.add_confinement();
 
   command.group("All states in place of scripts");

@@ -20,19 +20,17 @@ Values situation_entry() {
 
 /// An effect, and how much of the suitability has to be left.
 Values effect_limit() {
-  Values values;
-  values.placeholder = "EFFECT";
-  values.expected = "lost or degraded:PERCENT";
-  values.check = [](const std::string& text) -> std::string {
-    constexpr std::string_view degraded = "degraded:";
-    const bool is_right = text == "lost" || (text.starts_with(degraded) &&
-                                             percent().check(text.substr(degraded.size())).empty());
-    if (is_right) return {};
-    return "expected 'lost', or a percentage with at most one decimal such as 'degraded:60', "
-           "found " +
-           quote(text);
-  };
-  return values;
+  return {
+      "EFFECT", "lost or degraded:PERCENT", [](const std::string& text) -> std::string {
+        constexpr std::string_view degraded = "degraded:";
+        const bool is_right =
+            text == "lost" ||
+            (text.starts_with(degraded) && percent().check(text.substr(degraded.size())).empty());
+        if (is_right) return {};
+        return "expected 'lost', or a percentage with at most one decimal such as 'degraded:60', "
+               "found " +
+               quote(text);
+      }};
 }
 
 constexpr const char* verify_examples =
@@ -67,19 +65,17 @@ void add_verify_command(Program& program) {
   command.argument("CATALOG PROPERTIES", options->paths, input("...", ValueKind::catalog_or_script),
                    "Catalog, unless property files name it; property files");
   command.format_option(options->format, formats);
-  command.option("-o,--output", options->output, output("OUT"),
-                 "The file to write, or - for standard output (default)");
+  command.output_option(options->output);
   command.option("--scripts", options->scripts, folder(),
                  "Write counterexamples and witnesses as scripts to DIR");
   command.option("--html", options->html, further_output("FILE"),
                  "Also write a page with a timeline of all of them");
-  command.option("-j,--jobs", options->jobs, whole_number("N", 1),
-                 "Explore with N threads (default: all processors)");
+  command.jobs_option(options->jobs, "Explore with N threads");
   command.flag("--reduce", options->reduce, "Merge states that differ only in orders of requests");
   command.add_confinement();
 
   command.option("--refused", options->refused, name_of("TASK", ValueKind::task),
-                 "Show how a start of TASK can be refused; repeatable");
+                 "Show how a start of TASK can be refused");
   command.flag("--outcomes", options->outcomes, "List all that events can come to, with scripts")
       .not_with({"--cut-sets", "--effects", "--html", "--overrides", "--refused", "--same-as"})
       .only_with_values("--format", {"text", "json"});
@@ -87,9 +83,7 @@ void add_verify_command(Program& program) {
   command.group("Comparison");
   command.option("--same-as", options->same_as, input("OLD", ValueKind::catalog),
                  "Prove that CATALOG decides as the catalog OLD does");
-  command
-      .option("--renamed", options->renamed, old_and_new_name(),
-              "OLD is called NEW in CATALOG; repeatable")
+  command.option("--renamed", options->renamed, old_and_new_name(), "OLD is called NEW in CATALOG")
       .only_with({"--same-as"});
   command
       .flag("--allow-missing", options->allow_missing, "What only one of them has does not count")
@@ -101,18 +95,18 @@ void add_verify_command(Program& program) {
   command.group("Faults");
   command
       .option("--cut-sets", options->cut_sets, name_of("TASK", ValueKind::task),
-              "List the faults that make TASK impossible; repeatable")
+              "List the faults that make TASK impossible")
       .not_with({"--format junit", "--format github"}, "it has no place for cut sets");
   command
       .option("--order", options->order, whole_number("K", 1, highest_order),
-              "At most K faults together (default: 2; effects: 1)")
+              "At most K faults together")
+      .without("2; effects: 1")
       .only_with({"--cut-sets", "--effects"});
   command
       .flag("--in-some-situation", options->in_some_situation,
             "Also sets that suffice in some situation")
       .only_with({"--cut-sets"});
-  command
-      .option("--situation", options->situation, situation_entry(), "In this situation; repeatable")
+  command.option("--situation", options->situation, situation_entry(), "In this situation")
       .only_with({"--cut-sets", "--effects", "--overrides"});
   command.flag("--effects", options->effects, "Tabulate what faults do to each task")
       .not_with({"--cut-sets", "--refused", "--same-as", "--scripts"})
@@ -128,9 +122,6 @@ void add_verify_command(Program& program) {
       .not_with({"--cut-sets", "--effects", "--refused", "--same-as", "--scripts"})
       .only_with_values("--format", {"text", "json"});
 
-  command.moved({"--write-tests"}, "'cbc coverage --write-missing'");
-  command.moved({"--mutants"}, "'cbc coverage --mutants'");
-  command.moved({"--beside", "--fail-under"}, "'cbc coverage'");
   command.action([options] { return run_verify(*options); });
 }
 

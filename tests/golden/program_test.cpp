@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -402,40 +401,6 @@ TEST(Help, FitsOnAScreen) {
 #define CBC_EXPECT_FIT(name) expect_fit({#name, "--help"});
   CBC_COMMANDS(CBC_EXPECT_FIT)
 #undef CBC_EXPECT_FIT
-}
-
-TEST(Help, TellsWhereOptionsHaveMoved) {
-  const std::map<std::string, std::vector<std::pair<std::string, std::string>>> moved{
-      {"solve",
-       {{"sweep", "cbc sweep"},
-        {"seed", "cbc sweep"},
-        {"events", "cbc sweep"},
-        {"priorities", "cbc sweep"},
-        {"failures", "cbc sweep"},
-        {"faults", "cbc sweep"},
-        {"shard", "cbc sweep"},
-        {"slowest", "cbc sweep"},
-        {"slowest-by-time", "cbc sweep"},
-        {"merge", "cbc sweep' or 'cbc coverage"},
-        {"coverage", "cbc coverage"},
-        {"fail-under", "cbc coverage"},
-        {"prove", "cbc coverage"},
-        {"assume", "cbc coverage"}}},
-      {"verify",
-       {{"write-tests", "cbc coverage --write-missing"},
-        {"mutants", "cbc coverage --mutants"},
-        {"beside", "cbc coverage"},
-        {"fail-under", "cbc coverage"}}}};
-  for (const auto& [command, options] : moved) {
-    const std::string help = run({{command, "--help"}, "/"}).out;
-    for (const auto& [option, place] : options) {
-      const Result result = run({{command, "robot.yaml", "--" + option, "1"}, "/"});
-      EXPECT_EQ(result.status, 2);
-      EXPECT_EQ(result.err, "cbc: --" + option + " has moved: use '" + place + "'\nSee 'cbc " +
-                                command + " --help'.\n");
-      EXPECT_EQ(help.find("--" + option + " "), std::string::npos) << help;
-    }
-  }
 }
 
 /// Of a mission in which more expectations fail than anybody reads.

@@ -7,7 +7,6 @@ from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parents[2] / "man"
 WRITTEN_BY_TEST = r'.\" From here on written by a test'
-VERBS = ("init", "lint", "compile", "solve", "verify", "coverage", "sweep", "tune", "graph", "rename", "play")
 
 
 def all_pages():
@@ -15,11 +14,6 @@ def all_pages():
     if not pages:
         sys.exit(f"there are no pages in {FOLDER}")
     return pages
-
-
-def page_of(verb):
-    """The page of a command; of the program itself for an empty one."""
-    return FOLDER / (f"cbc-{verb}.1" if verb else "cbc.1")
 
 
 def plain(line):

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <deque>
@@ -13,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "cbc/units.h"
+#include "core/command_line/values.h"
 #include "core/support/wording.h"
 
 /// Declares a command line: the commands of a program, their options and arguments, which values
@@ -27,92 +28,12 @@ struct EmbeddedFile {
   std::string_view text;
 };
 
-/// What completion offers for a value.
-enum class ValueKind : std::uint8_t {
-  text,               ///< its choices or names, if it has any
-  catalog,            ///< a file with a catalog, or a folder of them
-  script,             ///< a file with a script
-  catalog_or_script,  ///< either, or a folder of scripts
-  shard,              ///< a file with the result of a shard
-  file,               ///< any file
-  task,               ///< the name of a task of the catalog on the line
-  task_or_behavior,   ///< the name of either
-};
-
-struct NameWithHelp {
-  std::string name;
-  std::string help;  ///< on one line; may be empty
-};
-
-/// The values that an option or an argument accepts.
-struct Values {
-  std::string placeholder;  ///< in --help: "FILE"
-  std::string expected;     ///< "a file", for complaints
-  ValueKind kind = ValueKind::text;
-  bool is_input = false;             ///< names a file to read, "-" being standard input
-  bool is_output = false;            ///< names a file to write, "-" being standard output
-  std::string replaced_by;           ///< the option whose output may replace this input, or none
-  std::vector<std::string> choices;  ///< if not empty, no other value is accepted
-  /// Names that completion offers; may be null.
-  std::function<std::vector<NameWithHelp>()> names;
-  /// Says what is wrong with a value, empty if nothing is. Null: all are right.
-  std::function<std::string(const std::string& value)> check;
-};
-
-/// Of a file to read.
-[[nodiscard]] Values input(std::string placeholder, ValueKind kind);
-/// Of a file to write, "-" being standard output.
-[[nodiscard]] Values output(std::string placeholder);
-/// Of a file to write beside the report, which has standard output.
-[[nodiscard]] Values further_output(std::string placeholder);
-/// Of a folder, which need not exist.
-[[nodiscard]] Values folder();
-/// Of a task or behavior, or of a file that need not exist.
-[[nodiscard]] Values name_of(std::string placeholder, ValueKind kind);
-/// Of two words with an equals sign between them, which `placeholder` shows; for complaints, what
-/// they are, and an example.
-[[nodiscard]] Values pair_of_words(const std::string& placeholder, std::string expected,
-                                   const std::string& example);
-/// Of OLD=NEW, where a newer catalog has another name for the same.
-[[nodiscard]] Values old_and_new_name();
-[[nodiscard]] Values one_of(std::string placeholder, std::vector<std::string> choices);
-[[nodiscard]] Values whole_number(std::string placeholder, std::int64_t least,
-                                  std::int64_t most = std::numeric_limits<std::int64_t>::max());
-/// Of a time of at least so many microseconds, written in seconds.
-[[nodiscard]] Values seconds(Microseconds least = 1);
-/// Of a part of a whole, from 0 to 100, with at most one decimal.
-[[nodiscard]] Values percent();
-/// The tenths of a percent in such a value.
-[[nodiscard]] std::uint64_t tenths_in(const std::string& percent);
-/// Such a value as it is written: "50 %", "99.5 %".
-[[nodiscard]] std::string describe_percent(const std::string& percent);
-
-/// The parts between separators; at least one, which may be empty.
-[[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
-/// "text, json or gcc"; words with blanks are quoted.
-[[nodiscard]] std::string join_with_or(const std::vector<std::string>& words);
-
-/// The names in a table, such as that of the formats of a report.
-template <typename Table>
-[[nodiscard]] std::vector<std::string> names_in(const Table& table) {
-  std::vector<std::string> names;
-  for (const auto& row : table) names.emplace_back(row.name);
-  return names;
-}
-/// Null if the table has no such name.
-template <typename Table>
-[[nodiscard]] auto* find_named(const Table& table, std::string_view name) {
-  for (const auto& row : table) {
-    if (row.name == name) return &row;
-  }
-  return static_cast<decltype(&*table.begin())>(nullptr);
-}
-
 /// An option, a flag or an argument of a command. `others` below are names of options ("--script")
 /// or arguments ("CATALOG"), or an option with one of its values ("--format json").
 struct Option {
   std::vector<std::string> names;  ///< with their dashes; of an argument its only name
-  std::string help;
+  std::string help;                ///< what it means, in a sentence without a period
+  std::string default_value;       ///< what counts without it; empty: there is nothing to say
   std::string group;
   Values values;  ///< of a flag empty, but for `kind`: what the flag makes of the arguments
   bool is_flag = false;
@@ -127,10 +48,14 @@ struct Option {
 
   /// The longest one, which messages use.
   [[nodiscard]] const std::string& name() const { return names.back(); }
+  /// Its help, with what the other members say.
+  [[nodiscard]] std::string meaning() const;
 
   Option& required();
   /// Lets the value be missing, which is then this one.
   Option& value_or(std::string value);
+  /// Says what counts without it, where the target does not.
+  Option& without(std::string value);
   /// Lets several values be given at once.
   Option& separated_by(char character);
   /// Makes a flag turn the arguments into files of this kind.
@@ -178,20 +103,41 @@ void assign(std::optional<Value>& target, const std::string& value) {
   assign(target.emplace(), value);
 }
 
+/// What a target holds before any value is assigned; empty if that means nothing.
+template <typename Target>
+std::string default_of(const Target& target) {
+  if constexpr (std::is_integral_v<Target>) {
+    return target == 0 ? std::string() : std::to_string(target);
+  } else if constexpr (std::is_same_v<Target, std::string>) {
+    return target;
+  } else {
+    return {};
+  }
+}
+
 class Command {
  public:
   Command(std::string name, std::string description, HelpText text);
 
-  /// The targets must live as long as `action`. A vector takes all values of a repeatable option.
+  /// The targets must live as long as `action`, and begin with the default values. A vector takes
+  /// all values of a repeatable option.
   template <typename Target>
   Option& option(const char* names, Target& target, Values values, std::string help) {
     Option& added = add(names, std::move(values), std::move(help));
     added.is_repeatable = std::is_same_v<Target, std::vector<std::string>>;
+    added.default_value = default_of(target);
     added.store = [&target](const std::string& value) { assign(target, value); };
     return added;
   }
-  /// --format, which takes one of some names; the first one is the default.
+  /// --format, which takes one of some names; the first one becomes the default.
   Option& format_option(std::string& target, const std::vector<std::string>& formats);
+  template <typename Target>
+  Option& output_option(Target& target) {
+    return option("-o,--output", target, output("OUT"), "The file to write")
+        .without("-, standard output");
+  }
+  /// --jobs; `help` says what N of them do.
+  Option& jobs_option(std::optional<std::uint64_t>& target, const std::string& help);
   Option& flag(const char* names, bool& target, std::string help);
   Option& flag(const char* names, std::string help);
   template <typename Target>
@@ -202,10 +148,6 @@ class Command {
   }
   /// --confine, for commands that read files.
   void add_confinement();
-  /// Options that another command has now: "'cbc sweep'". Only a complaint about them tells of it.
-  void moved(const std::vector<std::string>& names, const std::string& place) {
-    for (const std::string& name : names) moved_.emplace(name, place);
-  }
   /// The heading in --help of the options declared next.
   void group(std::string title) { group_ = std::move(title); }
   /// What the command does. Returns the exit status.
@@ -217,8 +159,6 @@ class Command {
   [[nodiscard]] const std::deque<Option>& options() const { return options_; }
   /// Null if it has none of this name.
   [[nodiscard]] const Option* find(std::string_view name) const;
-  /// By name of an option that moved: where it is now.
-  [[nodiscard]] const std::map<std::string, std::string>& moved() const { return moved_; }
   [[nodiscard]] int run() const { return run_(); }
 
  private:
@@ -229,7 +169,6 @@ class Command {
   HelpText text_;
   std::string group_ = "Options";
   std::deque<Option> options_;  ///< a deque, as references to them are handed out
-  std::map<std::string, std::string> moved_;
   std::function<int()> run_;
 };
 
@@ -242,7 +181,7 @@ class Program {
   Command& add_command(std::string name, std::string description, HelpText text);
 
   /// Does what a command line says, or complains of it. Returns the exit status.
-  [[nodiscard]] int run(const std::vector<std::string>& arguments) const;
+  [[nodiscard]] int run(const std::vector<std::string>& words) const;
 
   [[nodiscard]] const std::string& called_as() const { return called_as_; }
   /// With the options that need no command.

@@ -16,87 +16,12 @@
 
 #include <fmt/core.h>
 
-#include "core/command_line/command_line.h"
+#include "core/command_line/parsed_line.h"
 #include "core/files/file_set.h"
 #include "runtime/base/text.h"
 
 namespace cbc::cli {
 namespace {
-
-/// The words around the one that is being typed, as far as they can be understood.
-struct TypedLine {
-  const Command* command = nullptr;   ///< null: it is being typed
-  bool is_unknown = false;            ///< there is no such command
-  const Option* pending = nullptr;    ///< what is being typed is its value
-  bool has_separator = false;         ///< "--" is before it: no options follow
-  std::size_t positionals = 0;        ///< the number of arguments before it
-  std::vector<std::string> files;     ///< the arguments before and after it
-  std::vector<std::string> scripts;   ///< that options before and after it name
-  std::optional<ValueKind> argument;  ///< what a flag makes of the arguments
-};
-
-bool is_option(const std::string& word) { return word.size() > 1 && word.front() == '-'; }
-
-void add_value(const Option& option, const std::string& value, TypedLine& line) {
-  if (option.values.kind == ValueKind::script) line.scripts.push_back(value);
-}
-
-void add_option(const std::string& word, TypedLine& line) {
-  const std::size_t equals = word.find('=');
-  const Option* const option = line.command->find(word.substr(0, equals));
-  if (option == nullptr) return;
-  if (option->is_flag) {
-    if (option->values.kind != ValueKind::text) line.argument = option->values.kind;
-  } else if (equals == std::string::npos) {
-    line.pending = option;
-  } else {
-    add_value(*option, word.substr(equals + 1), line);
-  }
-}
-
-/// Whether a word after an option is its value.
-bool is_value_of(const Option* option, const std::string& word) {
-  return option != nullptr && (option->missing_value.empty() || !is_option(word));
-}
-
-void add_word(const std::string& word, TypedLine& line) {
-  if (is_value_of(line.pending, word)) {
-    add_value(*std::exchange(line.pending, nullptr), word, line);
-    return;
-  }
-  line.pending = nullptr;
-  if (line.has_separator || !is_option(word)) {
-    line.files.push_back(word);
-  } else if (word == "--") {
-    line.has_separator = true;
-  } else {
-    add_option(word, line);
-  }
-}
-
-/// `words` follow the name of the program; the last one is being typed. `behind` follow that one.
-TypedLine understand_line(const Program& program, const std::vector<std::string>& words,
-                          const std::vector<std::string>& behind) {
-  TypedLine line;
-  for (std::size_t i = 0; i + 1 < words.size(); ++i) {
-    if (line.command != nullptr) {
-      add_word(words[i], line);
-    } else if (!is_option(words[i])) {
-      line.command = program.find(words[i]);
-      line.is_unknown = line.command == nullptr;
-      if (line.is_unknown) return line;
-    }
-  }
-  if (line.command == nullptr) return line;
-  line.positionals = line.files.size();
-  TypedLine whole = line;
-  whole.pending = nullptr;
-  for (const std::string& word : behind) add_word(word, whole);
-  line.files = std::move(whole.files);
-  line.scripts = std::move(whole.scripts);
-  line.argument = whole.argument;
-  return line;
-}
 
 /// Larger files would take longer to read than somebody who presses a key waits.
 constexpr std::uintmax_t largest_completed = std::uintmax_t{2} << 20U;
@@ -183,7 +108,7 @@ void offer_options(const Command& command, Completion& completion) {
   for (const Option& option : command.options()) {
     if (option.is_argument) continue;
     const std::vector<std::string>& choices = option.values.choices;
-    const std::string help = choices.empty() ? first_words(option.help) : join(choices, ", ");
+    const std::string help = choices.empty() ? first_words(option.meaning()) : join(choices, ", ");
     for (auto name = option.names.rbegin(); name != option.names.rend(); ++name) {
       completion.candidates.push_back({*name, help});
     }
@@ -200,12 +125,17 @@ void offer_files(std::vector<std::string_view> suffixes, Completion& completion)
 }
 
 /// Offers names of the catalog on the line, or of the one that a script on the line names.
-void offer_names_of(const TypedLine& line, bool with_behaviors, Completion& completion) {
-  const std::vector<std::string>& paths = line.files.empty() ? line.scripts : line.files;
+void offer_names_of(const ParsedLine& line, bool with_behaviors, Completion& completion) {
+  std::vector<std::string> paths = line.arguments;
+  for (const auto& [option, values] : line.given) {
+    if (option->values.kind == ValueKind::script) {
+      paths.insert(paths.end(), values.begin(), values.end());
+    }
+  }
   if (!paths.empty()) offer_names(names_of_file(paths.front(), with_behaviors), completion);
 }
 
-void offer_kind(ValueKind kind, const TypedLine& line, Completion& completion) {
+void offer_kind(ValueKind kind, const ParsedLine& line, Completion& completion) {
   switch (kind) {
     case ValueKind::text:
       return;
@@ -226,7 +156,7 @@ void offer_kind(ValueKind kind, const TypedLine& line, Completion& completion) {
   }
 }
 
-void offer_values(const Option& option, const TypedLine& line, const std::string& typed,
+void offer_values(const Option& option, const ParsedLine& line, const std::string& typed,
                   Completion& completion) {
   if (option.separator != '\0') {
     completion.prefix += typed.substr(0, typed.rfind(option.separator) + 1);
@@ -238,49 +168,50 @@ void offer_values(const Option& option, const TypedLine& line, const std::string
   offer_kind(option.values.kind, line, completion);
 }
 
-/// The argument that comes next; null if all are given.
-const Option* next_argument(const Command& command, std::size_t given) {
-  for (const Option& option : command.options()) {
-    if (option.is_argument && (option.is_repeatable || given-- == 0)) return &option;
+/// What a flag on the line makes of the arguments.
+std::optional<ValueKind> kind_of_arguments(const ParsedLine& line) {
+  for (const auto& [option, values] : line.given) {
+    if (option->is_flag && option->values.kind != ValueKind::text) return option->values.kind;
   }
-  return nullptr;
+  return std::nullopt;
 }
 
 /// Follows from the declarations of the command line. `words` follow the name of the program; the
-/// last one, which may be empty, is being typed. `behind` follow that one. Where names of a catalog
-/// fit, the catalog is read.
+/// word at `place`, which may be empty, is being typed. Where names of a catalog fit, the catalog
+/// is read.
 Completion complete(const Program& program, const std::vector<std::string>& words,
-                    const std::vector<std::string>& behind) {
+                    std::size_t place) {
   Completion completion;
-  if (words.empty()) return completion;
-  const std::string& last = words.back();
-  const TypedLine line = understand_line(program, words, behind);
-  if (line.is_unknown) return completion;
-  const bool is_dash = last.starts_with('-') && !line.has_separator;
-  if (line.command == nullptr) {
+  const std::string& last = words[place];
+  const ParsedLine before =
+      parse(program, {words.begin(), words.begin() + static_cast<std::ptrdiff_t>(place)});
+  const ParsedLine whole = parse(program, words);
+  if (before.has_unknown_command) return completion;
+  const bool is_dash = last.starts_with('-') && !before.has_separator;
+  if (before.command == nullptr) {
     is_dash ? offer_options(program.itself(), completion) : offer_commands(program, completion);
     return completion;
   }
-  if (is_value_of(line.pending, last)) {
-    offer_values(*line.pending, line, last, completion);
+  if (is_value_of(before.pending, last)) {
+    offer_values(*before.pending, whole, last, completion);
     return completion;
   }
   const std::size_t equals = last.find('=');
   if (is_dash && equals != std::string::npos) {
     if (!last.starts_with("--")) return completion;  // short options take no '='
-    const Option* const option = line.command->find(last.substr(0, equals));
+    const Option* const option = before.command->find(last.substr(0, equals));
     if (option == nullptr || option->is_flag) return completion;
     completion.prefix = last.substr(0, equals + 1);
-    offer_values(*option, line, last.substr(equals + 1), completion);
+    offer_values(*option, whole, last.substr(equals + 1), completion);
     return completion;
   }
-  const Option* const positional = next_argument(*line.command, line.positionals);
-  if (is_dash || (positional == nullptr && last.empty() && !line.has_separator)) {
-    offer_options(*line.command, completion);
-  } else if (positional != nullptr && line.argument) {
-    offer_kind(*line.argument, line, completion);
+  const Option* const positional = next_argument(*before.command, before.arguments.size());
+  if (is_dash || (positional == nullptr && last.empty() && !before.has_separator)) {
+    offer_options(*before.command, completion);
+  } else if (const auto kind = kind_of_arguments(whole); positional != nullptr && kind) {
+    offer_kind(*kind, whole, completion);
   } else if (positional != nullptr) {
-    offer_values(*positional, line, last, completion);
+    offer_values(*positional, whole, last, completion);
   }
   return completion;
 }
@@ -406,9 +337,8 @@ void reply_to_shell(const Program& program, const std::vector<std::string>& argu
   if (shell == "bash") {
     for (std::string& word : words) word = unquote(word);
   }
-  const auto behind = words.begin() + static_cast<std::ptrdiff_t>(place);
   words[place - 1] = typed.plain;
-  const Completion completion = complete(program, {words.begin(), behind}, {behind, words.end()});
+  const Completion completion = complete(program, words, place - 1);
   completion.is_file ? print_files(completion, typed) : print_words(completion, typed, shell);
 }
 

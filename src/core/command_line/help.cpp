@@ -42,7 +42,7 @@ std::string entry(const Option& option) {
   const std::string& placeholder = option.values.placeholder;
   return entry(
       fmt::format("{}{}{}", join(option.names, ","), placeholder.empty() ? "" : " ", placeholder),
-      option.help);
+      option.meaning());
 }
 
 /// The command as it is called: "cbc lint", or "cbc".

@@ -30,15 +30,12 @@ std::optional<std::uint64_t> parse_memory(const std::string& text) {
 }
 
 Values memory_size() {
-  Values values;
-  values.placeholder = "SIZE";
-  values.expected = "a size of memory";
-  values.check = [](const std::string& text) -> std::string {
-    if (parse_memory(text)) return {};
-    return fmt::format("expected a number of bytes, or one with K, M, G or T, such as 8G, found {}",
-                       quote(text));
-  };
-  return values;
+  return {"SIZE", "a size of memory", [](const std::string& text) -> std::string {
+            if (parse_memory(text)) return {};
+            return fmt::format(
+                "expected a number of bytes, or one with K, M, G or T, such as 8G, found {}",
+                quote(text));
+          }};
 }
 
 }  // namespace
@@ -51,7 +48,7 @@ std::vector<Option*> add_search_limits(Command& command, SearchLimits& limits) {
           &command.option("--tie-seed", limits.tie_seed, whole_number("N", 0),
                           "Order equal behaviors at random, with the seed N"),
           &command.option("--max-clock-events", limits.max_clock_events, whole_number("N", 1),
-                          "Give up after N clock events (default: 1000000)")};
+                          "Give up after N clock events")};
 }
 
 CoordinatorOptions coordinator_options(const SearchLimits& limits) {
