@@ -134,14 +134,15 @@ class Call {
 
   /// Compares each catalog with what it was.
   int prove(const std::vector<NamedFile>& files) {
-    const ExplorationLimits limits{command_.max_states, StateLimits{}.memory(), 0};
+    Budget budget = StateLimits{}.budget();
+    budget.max_states = command_.max_states;
     for (const NamedFile& file : files) {
       if (file.kind != NamedFile::Kind::catalog) continue;
       ReportedProof& proof = proofs_.emplace_back();
       proof.catalog = file.file->name;
       proof.max_states = command_.max_states;
       proof.comparison = compare_renamed(*file.catalog->compiled, recheck_.renamed(*file.catalog),
-                                         renaming_, limits, thread_count(std::nullopt));
+                                         renaming_, budget, thread_count(std::nullopt));
       if (proof.comparison.result != Verdict::Result::violated) continue;
       complain(
           "internal error: with the new name {} would decide differently, so nothing is "

@@ -1,6 +1,5 @@
 // Tolerances over all decisions of all reachable states.
 
-#include <chrono>
 #include <string>
 #include <utility>
 
@@ -18,28 +17,20 @@
 namespace cbc::cli {
 namespace {
 
-ExplorationLimits limits_of(const TuneOptions& options) {
-  return {options.limits.max_states, options.limits.memory(), options.limits.seconds()};
-}
-
 /// That there are states that were not looked at.
-int complain_of_end(const std::string& file, ExplorationEnd end, const TuneOptions& options) {
+int complain_of_end(const std::string& file, Budget::End end, const TuneOptions& options) {
   complain("{}: expected all reachable states to be visited; an exploration was {}", quote(file),
-           describe_exploration_end(end, limits_of(options)));
+           options.limits.budget().describe(end));
   return exit_no;
 }
 
 StateTuner explore_present(const CheckedCatalog& source, const std::vector<TunableNumber>& numbers,
                            const PropertyFile& file, const TuneOptions& options) {
   Progress progress("exploring", 1);
-  progress.begin(source.reading.catalog.file);
   ExplorationOptions of_exploration;
-  of_exploration.limits = limits_of(options);
+  of_exploration.budget = options.limits.budget().started();
+  of_exploration.budget.tell = progress.listener();
   of_exploration.jobs = thread_count(options.jobs);
-  of_exploration.on_progress = [&](const auto& /*groups*/, const ExplorationProgress& so_far) {
-    progress.show(fmt::format(" (depth {}, {})", so_far.depth, quantity(so_far.states, "state")));
-    return true;
-  };
   return {source.reading.catalog, numbers, file, of_exploration};
 }
 

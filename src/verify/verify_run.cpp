@@ -32,10 +32,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-ExplorationLimits limits_of(const StateLimits& limits) {
-  return {limits.max_states, limits.memory(), limits.seconds()};
-}
-
 /// Makes the folder of --scripts, and looks whether the other outputs can be written. All has been
 /// read. Returns the exit status, and prints what is wrong.
 int prepare_outputs(const VerifyOptions& options) {
@@ -57,7 +53,8 @@ class Call {
         catalog_(*questions_.catalog->compiled) {
     result_.catalog = questions_.catalog->compiled;
     result_.text = questions_.catalog->text;
-    result_.limits = limits_of(options.limits);
+    result_.limits = options.limits.budget();
+    result_.limits.is_stopped = [this] { return signals_.have_come(); };
     result_.wants_cut_sets = !options.cut_sets.empty();
   }
 
@@ -236,25 +233,11 @@ class Call {
     if (questions_.files.empty() && asks_otherwise) return;
     Progress progress("exploring", count_explorations());
     ExplorationOptions of_verification;
-    of_verification.limits = result_.limits;
+    of_verification.budget = result_.limits;
+    of_verification.budget.tell = progress.listener();
     of_verification.jobs = thread_count(options_.jobs);
     of_verification.reduce = options_.reduce;
     of_verification.outcomes = options_.outcomes;
-    std::vector<GroupId> explored;
-    std::uint64_t states = 0;
-    Clock::time_point begin;
-    of_verification.on_progress = [&](const std::vector<GroupId>& groups,
-                                      const ExplorationProgress& so_far) {
-      const auto now = Clock::now();
-      if (explored != groups || so_far.states < states) {
-        explored = groups;
-        begin = now;
-        progress.begin(name_groups(groups));
-      }
-      states = so_far.states;
-      progress.show(describe_progress(so_far, now - begin));
-      return !signals_.have_come();
-    };
     if (questions_.files.empty()) {
       result_.parts.push_back({nullptr, verify_groups(catalog_, of_verification), {}});
     }
@@ -268,17 +251,11 @@ class Call {
   int compare() {
     if (questions_.old_catalog == nullptr) return exit_ok;
     const CompiledCatalog& old_catalog = *questions_.old_catalog;
-    Progress progress("comparing", 1);
-    progress.begin(std::string(old_catalog.file));
+    Progress progress("comparing", catalog_.group_count());
     ExplorationOptions of_comparison;
-    of_comparison.limits = result_.limits;
+    of_comparison.budget = result_.limits;
+    of_comparison.budget.tell = progress.listener();
     of_comparison.jobs = thread_count(options_.jobs);
-    const auto begin = Clock::now();
-    of_comparison.on_progress = [&](const std::vector<GroupId>& /*groups*/,
-                                    const ExplorationProgress& so_far) {
-      progress.show(describe_progress(so_far, Clock::now() - begin));
-      return !signals_.have_come();
-    };
     comparison_.is_by_default = result_.parts.empty();
     comparison_.allow_missing = options_.allow_missing;
     ReportedComparison& reported = result_.same_as.emplace();
@@ -291,29 +268,6 @@ class Call {
     progress.clear();
     if (reported.comparison.error) return complain(*reported.comparison.error);
     return replay_differences(options_, result_);
-  }
-
-  static std::string name_groups(const std::vector<GroupId>& groups) {
-    std::string text = groups.size() == 1 ? "group" : "groups";
-    for (const GroupId group : groups) text += fmt::format(" {}", std::uint32_t{group});
-    return text;
-  }
-
-  static std::string describe_progress(const ExplorationProgress& so_far,
-                                       std::chrono::duration<double> elapsed) {
-    const double rate =
-        elapsed.count() > 0 ? static_cast<double>(so_far.transitions) / elapsed.count() : 0;
-    return fmt::format(" (depth {}, {} states, {} controls, {} moves/s)", so_far.depth,
-                       shorten(so_far.states), shorten(so_far.controls),
-                       shorten(static_cast<std::uint64_t>(rate)));
-  }
-
-  /// A number in at most five characters, so that the line fits: "1234", "1234k".
-  static std::string shorten(std::uint64_t number) {
-    constexpr std::array units = {"", "k", "M", "G"};
-    std::size_t unit = 0;
-    for (; number >= 10'000 && unit + 1 < units.size(); ++unit) number /= 1000;
-    return std::to_string(number) + units.at(unit);
   }
 
   /// About a question that has no answer; empty if there is none.

@@ -132,7 +132,7 @@ TEST(BreadthFirst, EndsAtALimitWithWhatIsKnown) {
   const Graph graph = sparse(all_numbers);
   const std::vector<std::uint32_t> expected = search_plainly(graph);
   const auto find = [&](const BreadthFirst::Limits& limits, const BreadthFirst::OnProgress& asked,
-                        ExplorationEnd end) {
+                        Budget::End end) {
     Visitor visitor(graph);
     BreadthFirst search({0, ~0U}, limits, asked);
     search.run(visitor);
@@ -142,10 +142,10 @@ TEST(BreadthFirst, EndsAtALimitWithWhatIsKnown) {
     EXPECT_EQ(search.transitions(), (visitor.numbers().size() - 1) * 4);
     expect_beginning(search, expected);
   };
-  find({.max_states = 30'000}, {}, ExplorationEnd::max_states);
-  find({.max_memory = 1'500'000}, {}, ExplorationEnd::max_memory);
+  find({.max_states = 30'000}, {}, Budget::End::max_states);
+  find({.max_memory = 1'500'000}, {}, Budget::End::max_memory);
   find(
-      {}, [](std::uint64_t states) { return states < 10'000; }, ExplorationEnd::stopped);
+      {}, [](std::uint64_t states) { return states < 10'000; }, Budget::End::stopped);
 }
 
 TEST(BreadthFirst, ALimitCountsPartsOfStates) {
@@ -153,7 +153,7 @@ TEST(BreadthFirst, ALimitCountsPartsOfStates) {
   BreadthFirst search({0, ~0U}, {.max_states = 200}, {});
   search.run(visitor);
   EXPECT_FALSE(search.is_complete());
-  EXPECT_EQ(search.end(), ExplorationEnd::max_states);
+  EXPECT_EQ(search.end(), Budget::End::max_states);
   EXPECT_GE(search.store().size(), 200U);
   EXPECT_LT(search.transitions(), 2500U);
   EXPECT_EQ(search.transitions() % 64, 0U);
@@ -165,7 +165,7 @@ TEST(BreadthFirst, AsksWithinAState) {
   Visitor visitor(dense(1499));
   BreadthFirst search({0, ~0U}, {}, [&looks](std::uint64_t /*states*/) { return ++looks < 10; });
   search.run(visitor);
-  EXPECT_EQ(search.end(), ExplorationEnd::stopped);
+  EXPECT_EQ(search.end(), Budget::End::stopped);
   EXPECT_EQ(looks, 10);
   EXPECT_EQ(search.transitions(), 9U * 64);
 }

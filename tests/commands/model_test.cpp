@@ -114,9 +114,7 @@ TEST(Model, KeepsADifferenceThatALimitFollows) {
   ExplorationOptions options;
   int looks = 0;
   // Before the pair of groups, and before its first state.
-  options.on_progress = [&looks](const auto& /*groups*/, const ExplorationProgress& /*so_far*/) {
-    return ++looks <= 2;
-  };
+  options.budget.is_stopped = [&looks] { return ++looks > 2; };
   ComparisonScope scope;
   scope.allow_missing = true;  // or else the behaviors are looked for first
   const CatalogComparison comparison =
@@ -131,7 +129,7 @@ TEST(Model, KeepsADifferenceThatALimitFollows) {
 TEST(Model, PairsVeryManyMoves) {
   const CompiledCatalog catalog = compile_text(behaviors_of_one_task(Model::most_in_cell - 1));
   ExplorationOptions options;
-  options.limits.max_states = 1;
+  options.budget.max_states = 1;
   const CatalogComparison comparison =
       compare_catalogs(catalog, catalog, common_assumptions(catalog, catalog), options, {});
   EXPECT_FALSE(comparison.error);

@@ -54,7 +54,7 @@ TEST(Outcomes, AreInTheOrderOfTheirScriptsThenOfTheCatalog) {
 TEST(Outcomes, AreThoseUpToTheDepthThatWasVisited) {
   const CompiledCatalog catalog = test::compile_text(drone);
   ExplorationOptions options;
-  options.limits.max_states = 2;
+  options.budget.max_states = 2;
   const Exploration result = explore_group(catalog, options);
   EXPECT_EQ(result.depth, 0U);
   EXPECT_EQ(texts_of(catalog, result), std::vector<std::string>{"0"});

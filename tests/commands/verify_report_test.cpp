@@ -71,15 +71,12 @@ TEST(VerifyReport, SaysHowFarASearchForCutSetsCame) {
   EXPECT_TRUE(was_partial);
 }
 
-std::string limit_of(const ExplorationLimits& limits, bool stops) {
+std::string limit_of(const Budget& limits) {
   VerifyResult result;
   result.catalog = robot();
   result.limits = limits;
   ExplorationOptions options;
-  options.limits = limits;
-  options.on_progress = [stops](const auto& /*groups*/, const ExplorationProgress& /*progress*/) {
-    return !stops;
-  };
+  options.budget = limits;
   const Verification verification = verify_groups(*result.catalog, options);
   EXPECT_FALSE(verification.is_complete());
   return describe_limit(result, verification.explorations.front());
@@ -132,11 +129,20 @@ TEST(VerifyReport, SaysWhatEndedAnExploration) {
   const std::string depth = "; every state up to depth 0 was visited";
   const std::string counts = "; states at each depth: 1";
   const std::string way_on = " (a higher limit goes on)";
-  EXPECT_EQ(limit_of({}, true), "interrupted" + depth + counts);
-  EXPECT_EQ(limit_of({1, 0, 0}, false), "ended by --max-states 1" + depth + way_on + counts);
-  EXPECT_EQ(limit_of({0, 3 << 10, 0}, false), "ended by --max-memory 3K" + depth + way_on + counts);
-  EXPECT_EQ(limit_of({0, 1025, 0}, false), "ended by --max-memory 1025" + depth + way_on + counts);
-  EXPECT_EQ(limit_of({0, 0, 1e-9}, false), "ended by --time-limit 1e-09" + depth + way_on + counts);
+  Budget of_states;
+  of_states.max_states = 1;
+  EXPECT_EQ(limit_of(of_states), "ended by --max-states 1" + depth + way_on + counts);
+  Budget of_memory;
+  of_memory.max_memory = 3 << 10;
+  EXPECT_EQ(limit_of(of_memory), "ended by --max-memory 3K" + depth + way_on + counts);
+  of_memory.max_memory = 1025;
+  EXPECT_EQ(limit_of(of_memory), "ended by --max-memory 1025" + depth + way_on + counts);
+  Budget of_time;
+  of_time.seconds = 1e-9;
+  EXPECT_EQ(limit_of(of_time), "ended by --time-limit 1e-09" + depth + way_on + counts);
+  of_time = {};
+  of_time.is_stopped = [] { return true; };
+  EXPECT_EQ(limit_of(of_time), "interrupted" + depth + counts);
 }
 
 /// What is said of the pairs of a group of tasks that have all been seen to run, the first two of

@@ -34,8 +34,6 @@ bool has_page(const Command& command) {
 
 std::string page_of(const Command& command) { return "cbc-" + command.name() + ".1"; }
 
-// What is written from the declarations -----------------------------------------------------------
-
 /// A word of a form of the command line: "--diff", "SCRIPT...", "task".
 std::string marked_up(std::string word) {
   if (word.starts_with("--")) return "Fl " + word.substr(1);
@@ -86,8 +84,6 @@ std::string declared_of(const Option& option) {
   }
   return prose(text);
 }
-
-// What is written in the page ---------------------------------------------------------------------
 
 /// All that a page says of options beside what is declared.
 struct PageProse {
@@ -148,8 +144,6 @@ std::string options_section(const Command& command, const PageProse& from_page) 
   end_group();
   return text;
 }
-
-// -------------------------------------------------------------------------------------------------
 
 class PageTest : public testing::Test {
  protected:

@@ -247,7 +247,7 @@ void run_case(std::uint64_t seed, oracle::Results& results) {
     file.assumptions = sample.question.assumptions;
     file.properties = sample.question.properties;
     ExplorationOptions options;
-    options.limits.max_states = most_states;
+    options.budget.max_states = most_states;
     const Verification found = verify_properties(sample.catalog, file, options);
     for (const Answer& answer : found.answers) {
       const Property& property = *answer.property;

@@ -133,8 +133,10 @@ void check(std::uint64_t seed, Results& results) {
   demand(same_meaning(with_new_name(old_catalog.reading.catalog, choice.renaming),
                       new_catalog.reading.catalog),
          "another meaning");
+  Budget budget;
+  budget.max_states = 200;
   const CatalogComparison comparison =
-      compare_renamed(old_catalog.compiled, new_catalog.compiled, choice.renaming, {200, 0, 0}, 1);
+      compare_renamed(old_catalog.compiled, new_catalog.compiled, choice.renaming, budget, 1);
   demand(comparison.result != Verdict::Result::violated, "decided differently");
   demand(test::with_name(run(catalog.text, script), new_name, choice.renaming.old_name) ==
              run(before.catalog, before.script),

@@ -140,7 +140,7 @@ CatalogComparison compare_with(
     std::uint64_t max_states_of_groups = 0) {
   ExplorationOptions options;
   options.jobs = jobs;
-  options.limits.max_states = max_states_of_groups;
+  options.budget.max_states = max_states_of_groups;
   ComparisonScope scope;
   scope.differences = differences;
   scope.renames = renames_of(pair);
@@ -390,7 +390,7 @@ TEST(SameAs, ACatalogDecidesAsItself) {
     SCOPED_TRACE(path.filename().string());
     const CompiledCatalog catalog = oracle::compile_yaml(test::read_file(path)).value();
     ExplorationOptions options;
-    options.limits.max_states = 4'000;
+    options.budget.max_states = 4'000;
     const CatalogComparison result =
         compare_catalogs(catalog, catalog, common_assumptions(catalog, catalog), options);
     EXPECT_NE(result.result, Verdict::Result::violated);

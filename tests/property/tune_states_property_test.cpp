@@ -54,7 +54,7 @@ class CaseCheck {
     if (numbers_.empty()) return;
     ExplorationOptions options;
     options.jobs = random_.percent(50) ? 2 : 1;
-    options.limits.max_states = most_states;
+    options.budget.max_states = most_states;
     const StateTuner tuner(catalog_, numbers_, file_, options);
     if (tuner.present().end || tuner.present().error) return;
     for (std::size_t count = 0; count < numbers_per_case; ++count) {

@@ -232,7 +232,7 @@ bool compare_decided(const VerifyCase& sample, const Exploration& expected) {
 /// Compares searches that ended at a limit. Returns the depth that was compared.
 std::uint32_t compare_beginnings(const VerifyCase& sample, const Exploration& expected) {
   ExplorationOptions options;
-  options.limits.max_states = expected.states;
+  options.budget.max_states = expected.states;
   const auto explore_with = [&](unsigned jobs) {
     options.jobs = jobs;
     return explore_all(sample, options);

@@ -122,7 +122,7 @@ void check_outcomes(const VerifyCase& sample, std::string& text, oracle::Statist
   PropertyFile file;
   file.assumptions = sample.question.assumptions;
   ExplorationOptions options;
-  options.limits.max_states = most_states;
+  options.budget.max_states = most_states;
   options.outcomes = true;
   for (const Exploration& of_group :
        verify_properties(sample.catalog, file, options).explorations) {
@@ -149,7 +149,7 @@ void run_property_case(std::uint64_t seed, oracle::Results& results) {
     file.assumptions = sample.question.assumptions;
     file.properties = sample.question.properties;
     ExplorationOptions options;
-    options.limits.max_states = most_states;
+    options.budget.max_states = most_states;
     const Verification verification = verify_properties(sample.catalog, file, options);
     for (const Answer& answer : verification.answers) {
       demand(answer.witness.has_value() == answer.verdict.has_script, "no script for a verdict");

@@ -60,6 +60,14 @@ CoordinatorOptions coordinator_options(const SearchLimits& limits) {
   return options;
 }
 
+Budget StateLimits::budget() const {
+  Budget budget;
+  budget.max_states = max_states;
+  budget.max_memory = memory();
+  budget.seconds = seconds();
+  return budget;
+}
+
 std::uint64_t StateLimits::memory() const {
   if (!max_memory.empty()) return parse_memory(max_memory).value_or(0);
   const long pages = ::sysconf(_SC_PHYS_PAGES);

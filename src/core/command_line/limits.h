@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/command_line/command_line.h"
+#include "core/support/budget.h"
 #include "runtime/coordinator/coordinator.h"
 
 // Options that several commands have: how answers are searched for, and when to give up.
@@ -30,6 +31,7 @@ struct StateLimits {
   std::string max_memory;
   std::string time_limit;
 
+  [[nodiscard]] Budget budget() const;
   /// Bytes; without --max-memory three quarters of the memory of the machine, or 0 if that is
   /// unknown.
   [[nodiscard]] std::uint64_t memory() const;

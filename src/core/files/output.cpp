@@ -91,18 +91,30 @@ void Progress::begin(const std::string& name) {
   show();
 }
 
-void Progress::show(const std::string& detail) {
+bool Progress::is_due() const {
   constexpr std::chrono::milliseconds between_updates(100);  // nobody can read faster
   const auto now = std::chrono::steady_clock::now();
-  if (!is_wanted_ || now - start_ < std::chrono::seconds(1)) return;
-  if (is_shown_ && now - shown_ < between_updates) return;
+  return is_wanted_ && now - start_ >= std::chrono::seconds(1) &&
+         (!is_shown_ || now - shown_ >= between_updates);
+}
+
+decltype(Budget::tell) Progress::listener() {
+  return [this](const std::string& what, const std::function<std::string()>& how_far) {
+    const std::lock_guard lock(listening_);
+    if (name_ != what) begin(what);
+    if (is_due()) show(how_far());
+  };
+}
+
+void Progress::show(const std::string& detail) {
+  if (!is_due()) return;
   // Overwrites the line: carriage return, text, erase to the end.
   const std::string line =
       fmt::format("{} {} of {}: {}{}", what_, begun_, total_, printable(name_), detail);
   fmt::print(stderr, "\r{}\x1b[K", first_characters(line, columns_of(stderr) - 1));
   std::fflush(stderr);
   is_shown_ = true;
-  shown_ = now;
+  shown_ = std::chrono::steady_clock::now();
 }
 
 void Progress::clear() {

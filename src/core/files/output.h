@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -16,6 +17,7 @@
 
 #include "core/diagnostic/diagnostic.h"
 #include "core/script/runner.h"
+#include "core/support/budget.h"
 #include "runtime/coordinator/coordinator.h"
 
 namespace cbc::cli {
@@ -88,16 +90,21 @@ class Progress {
   /// Shows the line, with `detail` at its end. May be called often: the terminal is updated a few
   /// times per second.
   void show(const std::string& detail = "");
+  /// Shows what a budget is told; each thing that is new begins. This object must outlive it.
+  [[nodiscard]] decltype(Budget::tell) listener();
   /// Removes the line, until it is shown again.
   void clear();
 
  private:
+  [[nodiscard]] bool is_due() const;
+
   const std::string what_;
   const std::size_t total_;
   const bool is_wanted_;
   const std::chrono::steady_clock::time_point start_;
   std::size_t begun_ = 0;
   std::string name_;  ///< of the thing that was begun last
+  std::mutex listening_;
   bool is_shown_ = false;
   std::chrono::steady_clock::time_point shown_;  ///< last
 };

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/support/budget.h"
 #include "explore/sets/state_store.h"
-#include "explore/space/exploration_limits.h"
 
 namespace cbc {
 
@@ -64,7 +64,7 @@ class BreadthFirst {
 
   [[nodiscard]] bool is_complete() const { return expanded_ == store_.size(); }
   /// What ended it, if it is not complete.
-  [[nodiscard]] std::optional<ExplorationEnd> end() const { return end_; }
+  [[nodiscard]] std::optional<Budget::End> end() const { return end_; }
   [[nodiscard]] std::uint64_t transitions() const { return transitions_; }
   [[nodiscard]] const StateStore& store() const { return store_; }
 
@@ -90,13 +90,13 @@ class BreadthFirst {
 
   [[nodiscard]] bool may_go_on() {
     if (limits_.max_states > 0 && store_.size() >= limits_.max_states) {
-      end_ = ExplorationEnd::max_states;
+      end_ = Budget::End::max_states;
     } else if (store_.size() >= StateStore::most_states - moves_between_looks) {
-      end_ = ExplorationEnd::too_many;
+      end_ = Budget::End::too_many;
     } else if (limits_.max_memory > 0 && store_.bytes_for(store_.size() + 1) > limits_.max_memory) {
-      end_ = ExplorationEnd::max_memory;
+      end_ = Budget::End::max_memory;
     } else if (on_progress_ && !on_progress_(store_.size())) {
-      end_ = ExplorationEnd::stopped;
+      end_ = Budget::End::stopped;
     }
     return !end_;
   }
@@ -108,7 +108,7 @@ class BreadthFirst {
   StateStore store_;
   Number expanded_ = 0;
   std::uint64_t transitions_ = 0;
-  std::optional<ExplorationEnd> end_;
+  std::optional<Budget::End> end_;
 };
 
 }  // namespace cbc

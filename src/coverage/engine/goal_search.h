@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "core/property/properties.h"
+#include "core/support/budget.h"
 #include "coverage/engine/goal_monitor.h"
 #include "coverage/engine/goals.h"
 #include "explore/model/model.h"
 #include "explore/sets/state_store.h"
-#include "explore/space/exploration_limits.h"
 #include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc {
@@ -31,8 +31,8 @@ struct GoalSearchOptions {
 struct GoalSearchResult {
   std::uint64_t states = 0;
   std::uint64_t moves = 0;
-  bool is_complete = false;           ///< false: a limit came first, and nothing is proven
-  std::optional<ExplorationEnd> end;  ///< which one; if not complete
+  bool is_complete = false;        ///< false: a limit came first, and nothing is proven
+  std::optional<Budget::End> end;  ///< which one; if not complete
   /// See Model::find_obstacle(); then nothing was visited.
   std::optional<std::string> error;
 };

@@ -15,6 +15,8 @@
 #include <set>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/support/system.h"
 #include "explore/controls/catalog_system.h"
 #include "explore/space/state_space.h"
@@ -164,7 +166,8 @@ std::uint64_t bytes_of_pairs(const Model& model) {
 
 }  // namespace
 
-Stepper::Options share_memory(const ExplorationOptions& options, std::uint64_t& memory) {
+Stepper::Options share_memory(const ExplorationOptions& options, Budget& budget) {
+  std::uint64_t& memory = budget.max_memory;
   Stepper::Options result;
   result.reduce = options.reduce;
   result.on_decision = options.on_decision;
@@ -175,13 +178,19 @@ Stepper::Options share_memory(const ExplorationOptions& options, std::uint64_t& 
   return result;
 }
 
+std::string name_groups(const std::vector<GroupId>& groups) {
+  std::string text = groups.size() == 1 ? "group" : "groups";
+  for (const GroupId group : groups) text += fmt::format(" {}", std::uint32_t{group});
+  return text;
+}
+
 Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
                     const Assumptions& assumptions, const std::vector<const Property*>& properties,
                     const ExplorationOptions& options) {
   Exploration result;
   result.groups = groups;
   if (options.outcomes) result.outcomes.emplace();
-  const auto end_before_moves = [&](ExplorationEnd end) {
+  const auto end_before_moves = [&](Budget::End end) {
     result.end = end;
     result.states = 1;
     result.states_at_depth = {1};
@@ -189,9 +198,7 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& 
     return std::move(result);
   };
   // The model of a group takes a while, and there may be thousands of groups.
-  if (options.on_progress && !options.on_progress(groups, {})) {
-    return end_before_moves(ExplorationEnd::stopped);
-  }
+  if (const auto end = options.budget.find_end()) return end_before_moves(*end);
   std::set<std::uint32_t> variables;
   for (const Property* const property : properties) variables.merge(variables_of(*property));
   const Model model(catalog, groups, assumptions, variables);
@@ -200,13 +207,13 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& 
     result.verdicts.resize(properties.size());
     return result;
   }
-  ExplorationLimits limits = options.limits;
-  if (std::uint64_t& memory = limits.max_memory; memory > 0) {
+  Budget budget = options.budget;
+  if (std::uint64_t& memory = budget.max_memory; memory > 0) {
     const std::uint64_t of_pairs = bytes_of_pairs(model);
-    if (of_pairs >= memory) return end_before_moves(ExplorationEnd::max_memory);
+    if (of_pairs >= memory) return end_before_moves(Budget::End::max_memory);
     memory -= of_pairs;
   }
-  Stepper::Options of_stepper = share_memory(options, limits.max_memory);
+  Stepper::Options of_stepper = share_memory(options, budget);
   const std::size_t jobs = std::max(1U, options.jobs);
   of_stepper.decision_bytes /= jobs;
   std::optional<CatalogSystem::Mark> mark;
@@ -215,9 +222,7 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& 
   }
   StateSpace::Systems systems;
   const auto of_parts = add_systems<CatalogSystem>(jobs, systems, model, of_stepper, mark);
-  StateSpace space(std::move(systems), limits, [&](const ExplorationProgress& progress) {
-    return !options.on_progress || options.on_progress(groups, progress);
-  });
+  StateSpace space(std::move(systems), budget, name_groups(groups));
   std::vector<Tests> tests(of_parts.size());
   std::vector<PropertyVisitor> visitors;
   visitors.reserve(tests.size());

@@ -12,7 +12,6 @@
 #include "explore/moves/stepper.h"
 #include "explore/properties/outcomes.h"
 #include "explore/properties/property_test.h"
-#include "explore/space/exploration_limits.h"
 #include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc {
@@ -20,8 +19,8 @@ namespace cbc {
 // What holds in all reachable states of some groups (docs/verify.md, "States").
 
 struct ExplorationOptions {
-  ExplorationLimits limits;  ///< of each exploration
-  unsigned jobs = 1;         ///< threads
+  Budget budget;      ///< of each exploration
+  unsigned jobs = 1;  ///< threads
   /// Takes states for the same that differ only in the order of requests of equal priority that
   /// cannot interact (Model::interaction_classes). They have the same moves, to the same states in
   /// this sense: verdicts, scripts and least numbers of moves stay as they are, and only the counts
@@ -32,22 +31,21 @@ struct ExplorationOptions {
   /// than once. Only moves count, so Exploration::start_refused, for which starts are tried, is
   /// left out. May be empty.
   DecisionListener on_decision;
-  /// Called now and then, by one thread at a time; false ends the exploration as a limit does. May
-  /// be empty.
-  std::function<bool(const std::vector<GroupId>& groups, const ExplorationProgress&)> on_progress;
 };
 
-/// Sets apart a quarter of the memory (0: no limit) for remembered decisions.
-[[nodiscard]] Stepper::Options share_memory(const ExplorationOptions& options,
-                                            std::uint64_t& memory);
+/// Sets apart a quarter of the memory of a budget for remembered decisions.
+[[nodiscard]] Stepper::Options share_memory(const ExplorationOptions& options, Budget& budget);
+
+/// "group 2", "groups 0 3".
+[[nodiscard]] std::string name_groups(const std::vector<GroupId>& groups);
 
 /// The result of the exploration of some groups.
 struct Exploration {
-  std::vector<GroupId> groups;        ///< ascending
-  bool complete = false;              ///< all states were visited
-  bool decided = false;               ///< it ended as soon as all properties were decided
-  bool reduced = false;               ///< see ExplorationOptions::reduce
-  std::optional<ExplorationEnd> end;  ///< the limit that ended it; if there was one
+  std::vector<GroupId> groups;     ///< ascending
+  bool complete = false;           ///< all states were visited
+  bool decided = false;            ///< it ended as soon as all properties were decided
+  bool reduced = false;            ///< see ExplorationOptions::reduce
+  std::optional<Budget::End> end;  ///< the limit that ended it; if there was one
   std::uint64_t states = 0;
   std::uint64_t transitions = 0;
   /// The length of the longest shortest path. Not complete: every state up to this depth was

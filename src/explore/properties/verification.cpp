@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <deque>
 #include <map>
-#include <mutex>
 #include <string>
 #include <utility>
 
@@ -98,15 +97,7 @@ std::vector<Exploration> explore_all(const CompiledCatalog& catalog, const Assum
                                      const std::vector<ExplorationTask>& tasks,
                                      const ExplorationOptions& options) {
   std::vector<Exploration> explorations(tasks.size());
-  std::mutex telling;
   ExplorationOptions each = options;
-  if (options.on_progress) {
-    each.on_progress = [&](const std::vector<GroupId>& groups,
-                           const ExplorationProgress& progress) {
-      const std::lock_guard lock(telling);
-      return options.on_progress(groups, progress);
-    };
-  }
   const auto explore_one = [&](std::size_t place) {
     const ExplorationTask& task = tasks[place];
     explorations[place] = explore(catalog, task.groups, assumptions, task.properties, each);

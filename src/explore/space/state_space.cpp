@@ -8,7 +8,11 @@
 #include "explore/space/state_space.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace cbc {
 
@@ -19,17 +23,20 @@ using Set = StatePart::Set;
 using Layer = StatePart::Layer;
 using Parcels = std::vector<StatePart::Parcel>;
 
+/// A number in at most five characters, so that a line of progress fits: "1234", "1234k".
+std::string shorten(std::uint64_t number) {
+  constexpr std::array units = {"", "k", "M", "G"};
+  std::size_t unit = 0;
+  for (; number >= 10'000 && unit + 1 < units.size(); ++unit) number /= 1000;
+  return std::to_string(number) + units.at(unit);
+}
+
 }  // namespace
 
-StateSpace::StateSpace(Systems systems, const ExplorationLimits& limits, OnProgress on_progress)
-    : limits_(limits), on_progress_(std::move(on_progress)), told_(systems.size()) {
+StateSpace::StateSpace(Systems systems, const Budget& budget, std::string what)
+    : budget_(budget.started()), what_(std::move(what)), told_(systems.size()) {
   for (std::unique_ptr<ControlSystem>& system : systems) {
     parts_.push_back(std::make_unique<StatePart>(std::move(system), parts_.size(), systems.size()));
-  }
-  if (limits_.seconds > 0) {
-    deadline_ = std::chrono::steady_clock::now() +
-                std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                    std::chrono::duration<double>(limits_.seconds));
   }
 }
 
@@ -78,9 +85,6 @@ void StateSpace::tell(std::size_t part) {
 bool StateSpace::look_at_limits() {
   const std::unique_lock lock(looking_, std::try_to_lock);
   if (!lock.owns_lock()) return !is_stopped_;
-  if (limits_.max_states > 0 && states_ >= limits_.max_states) {
-    return end_by(ExplorationEnd::max_states);
-  }
   std::uint64_t bytes = 0;
   std::uint64_t transitions = 0;
   std::uint64_t controls = 0;
@@ -89,22 +93,20 @@ bool StateSpace::look_at_limits() {
     transitions += told.transitions;
     controls += told.controls;
   }
-  if (limits_.max_memory > 0 && bytes >= limits_.max_memory) {
-    return end_by(ExplorationEnd::max_memory);
+  if (const std::optional<Budget::End> end = budget_.find_end(states_, bytes)) {
+    end_ = *end;
+    is_stopped_ = true;
+    return false;
   }
-  if (deadline_ && std::chrono::steady_clock::now() >= *deadline_) {
-    return end_by(ExplorationEnd::time_limit);
-  }
-  if (!on_progress_) return true;
-  return on_progress_({states_, transitions,
-                       static_cast<std::uint32_t>(states_at_depth_.size() - 1), controls}) ||
-         end_by(ExplorationEnd::stopped);
-}
-
-bool StateSpace::end_by(ExplorationEnd end) {
-  end_ = end;
-  is_stopped_ = true;
-  return false;
+  if (!budget_.tell) return true;
+  budget_.tell(what_, [&] {
+    const std::chrono::duration<double> elapsed = Budget::Clock::now() - begin_;
+    const double rate = static_cast<double>(transitions) / std::max(elapsed.count(), 1e-6);
+    return fmt::format(" (depth {}, {} states, {} controls, {} moves/s)",
+                       states_at_depth_.size() - 1, shorten(states_), shorten(controls),
+                       shorten(static_cast<std::uint64_t>(rate)));
+  });
+  return true;
 }
 
 /// All states up to a depth were visited, and no more are asked for.

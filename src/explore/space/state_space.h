@@ -1,18 +1,18 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "core/support/budget.h"
 #include "core/support/system.h"
 #include "explore/controls/control_system.h"
 #include "explore/model/model.h"
-#include "explore/space/exploration_limits.h"
 #include "explore/space/first_states.h"
 #include "explore/space/state_part.h"
 #include "explore/space/state_walker.h"
@@ -30,10 +30,9 @@ class StateSpace {
   using Layer = StatePart::Layer;
   /// One for each part, and all alike.
   using Systems = std::vector<std::unique_ptr<ControlSystem>>;
-  using OnProgress = std::function<bool(const ExplorationProgress&)>;
 
-  /// `systems`: at least one.
-  StateSpace(Systems systems, const ExplorationLimits& limits, OnProgress on_progress);
+  /// `systems`: at least one. The time of the budget begins now; it is told of `what`.
+  StateSpace(Systems systems, const Budget& budget, std::string what);
 
   [[nodiscard]] std::vector<std::unique_ptr<StatePart>>& parts() { return parts_; }
 
@@ -50,7 +49,7 @@ class StateSpace {
   [[nodiscard]] bool is_complete() const { return is_complete_; }
   /// Whether the visitors ended it.
   [[nodiscard]] bool is_decided() const { return is_decided_; }
-  [[nodiscard]] ExplorationEnd end() const { return end_; }
+  [[nodiscard]] Budget::End end() const { return end_; }
   [[nodiscard]] std::uint64_t states() const { return states_; }
   [[nodiscard]] std::uint64_t transitions() const;
   /// All states up to this depth were expanded, or, if the visitors ended it, visited. 0 also if
@@ -89,7 +88,6 @@ class StateSpace {
   /// Asked by a part, now and then.
   [[nodiscard]] bool may_go_on(std::size_t part);
   [[nodiscard]] bool look_at_limits();
-  bool end_by(ExplorationEnd end);
   void end_with(std::uint32_t depth);
   void end_layer();
   [[nodiscard]] std::uint64_t size_of_layer(std::uint32_t depth) const;
@@ -98,16 +96,16 @@ class StateSpace {
                                                               std::uint32_t depth);
   [[nodiscard]] bool leads_to(const StateWalker& walker, const std::vector<Layer>& wanted) const;
 
-  const ExplorationLimits limits_;
-  const OnProgress on_progress_;
+  const Budget budget_;
+  const std::string what_;
+  const Budget::Clock::time_point begin_ = Budget::Clock::now();
   std::vector<std::unique_ptr<StatePart>> parts_;
   bool is_complete_ = false;
   bool is_decided_ = false;
-  ExplorationEnd end_ = ExplorationEnd::stopped;
+  Budget::End end_ = Budget::End::stopped;
   std::uint64_t states_ = 0;
   std::uint32_t expanded_layers_ = 0;
   std::vector<std::uint64_t> states_at_depth_;
-  std::optional<std::chrono::steady_clock::time_point> deadline_;
   /// What a part says of itself, while others may ask.
   struct Told {
     std::atomic<std::uint64_t> bytes{0};

@@ -28,13 +28,12 @@ Renames renames_of(const CompiledCatalog& before, const CompiledCatalog& after,
 }  // namespace
 
 CatalogComparison compare_renamed(const CompiledCatalog& before, const CompiledCatalog& after,
-                                  const Renaming& renaming, const ExplorationLimits& limits,
-                                  unsigned jobs) {
+                                  const Renaming& renaming, const Budget& budget, unsigned jobs) {
   ComparisonScope scope;
   scope.renames = renames_of(before, after, renaming);
   scope.is_by_default = true;
   ExplorationOptions options;
-  options.limits = limits;
+  options.budget = budget;
   options.jobs = jobs;
   return compare_catalogs(before, after, common_assumptions(before, after, scope.renames), options,
                           scope);

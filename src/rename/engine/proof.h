@@ -13,7 +13,7 @@ namespace cbc {
 /// for, as `cbc verify --same-as` does. Each exploration ends after `max_states` pairs of states.
 [[nodiscard]] CatalogComparison compare_renamed(const CompiledCatalog& before,
                                                 const CompiledCatalog& after,
-                                                const Renaming& renaming,
-                                                const ExplorationLimits& limits, unsigned jobs);
+                                                const Renaming& renaming, const Budget& budget,
+                                                unsigned jobs);
 
 }  // namespace cbc

@@ -11,13 +11,13 @@ namespace {
 /// What ended a comparison. Nobody interrupts it but by ending the program, and no time is set.
 std::string describe_end(const ReportedProof& proof) {
   switch (*proof.comparison.end) {
-    case ExplorationEnd::max_states:
+    case Budget::End::max_states:
       return fmt::format("ended by --max-states {}", proof.max_states);
-    case ExplorationEnd::max_memory:
+    case Budget::End::max_memory:
       return "ended, as the memory of this machine is full";
-    case ExplorationEnd::too_many:
-    case ExplorationEnd::time_limit:
-    case ExplorationEnd::stopped:
+    case Budget::End::too_many:
+    case Budget::End::time_limit:
+    case Budget::End::stopped:
       break;
   }
   return "ended, as there are more states than can be counted";

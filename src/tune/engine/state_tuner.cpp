@@ -22,7 +22,7 @@ namespace {
 /// The answers to all properties, or the limit that ended the search for one.
 struct Answers {
   std::vector<Verdict::Result> results;  ///< by property
-  std::optional<ExplorationEnd> end;
+  std::optional<Budget::End> end;
 };
 
 Answers find_answers(const CompiledCatalog& catalog, const PropertyFile& file,
@@ -40,8 +40,8 @@ Answers find_answers(const CompiledCatalog& catalog, const PropertyFile& file,
 }
 
 ExplorationOptions of_one_thread(ExplorationOptions options) {
-  options.limits.max_memory /= std::max(1U, std::exchange(options.jobs, 1));
-  options.on_progress = {};
+  options.budget.max_memory /= std::max(1U, std::exchange(options.jobs, 1));
+  options.budget.tell = {};
   return options;
 }
 
@@ -109,21 +109,12 @@ StateSurvey StateTuner::survey(const CompiledCatalog& catalog, const std::vector
   return survey;
 }
 
-ExplorationOptions StateTuner::further_options() const {
-  ExplorationOptions options = options_;
-  constexpr double least = 0.001;  // 0 would be no limit
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
-  double& seconds = options.limits.seconds;
-  if (seconds > 0) seconds = std::max(least, seconds - elapsed.count());
-  return options;
-}
-
 CatalogComparison StateTuner::compare(const CompiledCatalog& changed,
                                       const std::vector<GroupId>& groups) const {
   ComparisonScope scope;
   scope.only_first = true;
   if (groups.size() == 1) scope.group = groups.front();
-  return compare_catalogs(changed, compiled_, file_.assumptions, further_options(), scope);
+  return compare_catalogs(changed, compiled_, file_.assumptions, options_, scope);
 }
 
 /// The event in both catalogs, as the script of the comparison shows it.
@@ -146,8 +137,8 @@ RunDifference StateTuner::describe(const EventDifference& difference,
 
 /// The first property that a change breaks.
 void StateTuner::find_broken(const CompiledCatalog& changed, RunDifference& difference,
-                             std::optional<ExplorationEnd>& end) const {
-  const Answers answers = find_answers(changed, file_, further_options());
+                             std::optional<Budget::End>& end) const {
+  const Answers answers = find_answers(changed, file_, options_);
   end = answers.end;
   for (std::size_t place = 0; place < results_.size(); ++place) {
     if (results_[place] != Verdict::Result::proved) continue;
@@ -184,7 +175,7 @@ void StateTuner::find_end(std::size_t number, bool upwards, StateTolerance& foun
       beyond = describe(*first, compiled);
       return find_broken(compiled, *beyond, found.end);
     }
-    further = survey(compiled, groups, further_options());
+    further = survey(compiled, groups, options_);
     found.end = comparison.end ? comparison.end : further.end;
     if (found.end) return;
     known = &further;

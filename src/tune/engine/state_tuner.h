@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -23,8 +22,8 @@ struct StateSurvey {
   std::vector<SolvedProblem> decisions;
   std::uint64_t states = 0;
   std::uint64_t transitions = 0;
-  std::optional<ExplorationEnd> end;  ///< the limit that ended it before all states were visited
-  std::optional<std::string> error;   ///< see Exploration
+  std::optional<Budget::End> end;    ///< the limit that ended it before all states were visited
+  std::optional<std::string> error;  ///< see Exploration
 };
 
 /// Tolerances over every decision in every reachable state of a catalog. May be asked by several
@@ -32,7 +31,7 @@ struct StateSurvey {
 class StateTuner {
  public:
   /// `file`: what is assumed, and promises that may break. `options`: of the first exploration;
-  /// further ones have one thread each, their part of the memory, and the time that is left. The
+  /// further ones have one thread each, and their part of the memory. The
   /// catalog, which has no errors, the numbers and the file must outlive the tuner.
   StateTuner(const Catalog& catalog, const std::vector<TunableNumber>& numbers,
              const PropertyFile& file, const ExplorationOptions& options);
@@ -42,7 +41,7 @@ class StateTuner {
 
   struct StateTolerance {
     Tolerance tolerance;
-    std::optional<ExplorationEnd> end;  ///< the limit that ended the search; then it is not known
+    std::optional<Budget::End> end;  ///< the limit that ended the search; then it is not known
   };
   [[nodiscard]] StateTolerance tolerance(std::size_t number) const;
   /// Whether some decision uses the number.
@@ -53,21 +52,19 @@ class StateTuner {
   [[nodiscard]] StateSurvey survey(const CompiledCatalog& catalog,
                                    const std::vector<GroupId>& groups,
                                    const ExplorationOptions& options) const;
-  [[nodiscard]] ExplorationOptions further_options() const;
   [[nodiscard]] CatalogComparison compare(const CompiledCatalog& changed,
                                           const std::vector<GroupId>& groups) const;
   [[nodiscard]] RunDifference describe(const EventDifference& difference,
                                        const CompiledCatalog& changed) const;
   void find_broken(const CompiledCatalog& changed, RunDifference& difference,
-                   std::optional<ExplorationEnd>& end) const;
+                   std::optional<Budget::End>& end) const;
   void find_end(std::size_t number, bool upwards, StateTolerance& found) const;
 
   const Catalog& catalog_;
   const CompiledCatalog compiled_;
   const std::vector<TunableNumber>& numbers_;
   const PropertyFile& file_;
-  const ExplorationOptions options_;  ///< of further explorations, but for the time
-  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  const ExplorationOptions options_;  ///< of further explorations
   StateSurvey present_;
   std::vector<Verdict::Result> results_;  ///< by property, with the numbers as they are
 };

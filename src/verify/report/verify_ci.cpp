@@ -116,7 +116,7 @@ TestCase case_of(const VerifyResult& result, const GroupComparison& groups,
   if (groups.end) {
     test.status = TestCase::Status::error;
     test.type = "limit";
-    test.message = "undecided: " + describe_exploration_end(*groups.end, result.limits);
+    test.message = "undecided: " + result.limits.describe(*groups.end);
     test.annotations.push_back({Severity::error, {}, "cbc comparison undecided", test.message});
   } else if (!groups.is_compared) {
     test.status = TestCase::Status::skipped;

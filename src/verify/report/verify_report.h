@@ -141,7 +141,7 @@ struct VerifyResult {
   std::optional<ReportedEffects> effects;
   std::optional<ReportedOverrides> overrides;
   std::optional<ReportedComparison> same_as;
-  ExplorationLimits limits;
+  Budget limits;
 
   /// Whether all properties are proved, and all groups without properties explored, no limit ended
   /// another search, and no effect exceeds --fail-on.

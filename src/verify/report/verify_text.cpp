@@ -69,19 +69,19 @@ std::string describe_violation(const Answer& answer, const Exploration& explorat
                      : "violated after " + quantity(events, "event");
 }
 
-bool has_higher_limit(ExplorationEnd end) {
-  return end == ExplorationEnd::max_states || end == ExplorationEnd::max_memory ||
-         end == ExplorationEnd::time_limit;
+bool has_higher_limit(Budget::End end) {
+  return end == Budget::End::max_states || end == Budget::End::max_memory ||
+         end == Budget::End::time_limit;
 }
 
 }  // namespace
 
 std::string describe_limit(const VerifyResult& result, const Exploration& exploration) {
-  const ExplorationEnd end = exploration.end.value_or(ExplorationEnd::stopped);
+  const Budget::End end = exploration.end.value_or(Budget::End::stopped);
   const std::string counts = join(exploration.states_at_depth, ", ",
                                   [](std::uint64_t count) { return std::to_string(count); });
   return fmt::format("{}; every state up to depth {} was visited{}; states at each depth: {}",
-                     describe_exploration_end(end, result.limits), exploration.depth,
+                     result.limits.describe(end), exploration.depth,
                      has_higher_limit(end) ? " (a higher limit goes on)" : "", counts);
 }
 
@@ -425,15 +425,14 @@ void add_compared_events(const VerifyResult& result, Text& text) {
     text.add(table.line({{"decided differently", style.bad}, join(tasks, ", ")}));
     if (comparison.end) {
       add(style.warning, "incomplete",
-          ": " + describe_exploration_end(*comparison.end, result.limits) +
-              "; there may be further differences");
+          ": " + result.limits.describe(*comparison.end) + "; there may be further differences");
     }
     return;
   }
   if (comparison.explored == Verdict::Result::undecided) {
-    return add(style.warning, "undecided",
-               fmt::format(": {}; no difference in {}",
-                           describe_exploration_end(*comparison.end, result.limits), counts));
+    return add(
+        style.warning, "undecided",
+        fmt::format(": {}; no difference in {}", result.limits.describe(*comparison.end), counts));
   }
   if (!comparison.is_compared) {
     return add(style.bad, "nothing was compared", ": no start, stop or finish comes in both");

@@ -131,15 +131,13 @@ class GroupComparer {
     if (!obstacle) obstacle = models.old_model.find_obstacle();
     if (obstacle) return obstacle;
     const PairedBits bits(models);
-    ExplorationLimits limits = options_.limits;
-    Stepper::Options of_stepper = share_memory(options_, limits.max_memory);
+    Budget budget = options_.budget;
+    Stepper::Options of_stepper = share_memory(options_, budget);
     const std::size_t jobs = std::max(1U, options_.jobs);
     of_stepper.decision_bytes /= 2 * jobs;
     StateSpace::Systems systems;
     const auto of_parts = add_systems<PairSystem>(jobs, systems, models, bits, scope_, of_stepper);
-    StateSpace space(std::move(systems), limits, [&](const ExplorationProgress& progress) {
-      return !options_.on_progress || options_.on_progress(groups.new_groups, progress);
-    });
+    StateSpace space(std::move(systems), budget, name_groups(groups.new_groups));
     std::vector<DifferenceVisitor> visitors;
     for (std::size_t place = 0; place < jobs; ++place) {
       visitors.emplace_back(*of_parts[place], *space.parts()[place], models.tasks.size());
@@ -316,8 +314,8 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
   GroupComparer comparer(of_old, of_new, translations, old_assumptions, new_assumptions, options,
                          scope);
   for (const GroupPair& groups : join_groups(of_old, of_new, translations.to_old)) {
-    if (options.on_progress && !options.on_progress(groups.new_groups, {})) {
-      result.end = result.end.value_or(ExplorationEnd::stopped);
+    if (const auto end = options.budget.find_end()) {
+      result.end = result.end.value_or(*end);
       break;
     }
     if (scope.group && std::find(groups.new_groups.begin(), groups.new_groups.end(),

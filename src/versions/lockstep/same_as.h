@@ -74,7 +74,7 @@ struct GroupComparison {
   std::uint64_t states = 0;                  ///< pairs of states
   std::uint64_t transitions = 0;             ///< pairs of transitions
   std::uint32_t depth = 0;                   ///< see Exploration
-  std::optional<ExplorationEnd> end;         ///< what ended the search before its end
+  std::optional<Budget::End> end;            ///< what ended the search before its end
   std::vector<EventDifference> differences;  ///< the first of all, then further ones of other tasks
 };
 
@@ -87,8 +87,8 @@ struct CatalogComparison {
   bool is_compared = false;                               ///< see GroupComparison, of any of them
   std::uint64_t states = 0;                               ///< of all groups
   std::uint64_t transitions = 0;
-  std::uint32_t depth = 0;            ///< of the deepest one
-  std::optional<ExplorationEnd> end;  ///< what ended the first search that was ended
+  std::uint32_t depth = 0;         ///< of the deepest one
+  std::optional<Budget::End> end;  ///< what ended the first search that was ended
   std::vector<DirectDifference> direct;
   std::vector<GroupComparison> groups;
   std::optional<std::string> error;  ///< see Exploration

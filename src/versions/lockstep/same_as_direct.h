@@ -23,8 +23,8 @@ namespace cbc {
 /// What only one of two catalogs has.
 struct MissingNames {
   std::vector<DirectDifference> differences;
-  std::optional<ExplorationEnd> end;  ///< of the first search that a limit ended
-  std::optional<std::string> error;   ///< see Exploration
+  std::optional<Budget::End> end;    ///< of the first search that a limit ended
+  std::optional<std::string> error;  ///< see Exploration
 };
 
 /// Finds what `catalog` has and the other one lacks, if it can be requested, be active, or change

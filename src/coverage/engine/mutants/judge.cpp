@@ -177,12 +177,10 @@ std::optional<std::string> find_distinguishing_script(const CompiledCatalog& ori
 
 ExplorationOptions exploration_options(const MutantJudge::Limits& limits) {
   ExplorationOptions options;
-  options.limits = {limits.max_states, limits.max_memory, 0};
+  options.budget.max_states = limits.max_states;
+  options.budget.max_memory = limits.max_memory;
+  options.budget.is_stopped = limits.is_stopped;
   options.reduce = true;
-  options.on_progress = [&limits](const std::vector<GroupId>& /*groups*/,
-                                  const ExplorationProgress& /*progress*/) {
-    return !limits.is_stopped || !limits.is_stopped();
-  };
   return options;
 }
 
@@ -217,10 +215,10 @@ bool never_time_out(const CompiledCatalog& catalog, const std::vector<TimeDiffer
 }
 
 /// A limit came before it was known.
-void give_up(const std::optional<ExplorationEnd>& end, MutantVerdict& verdict) {
+void give_up(const std::optional<Budget::End>& end, MutantVerdict& verdict) {
   verdict.result = MutantVerdict::Result::undecided;
   verdict.doubt = MutantVerdict::Doubt::limit;
-  verdict.lacks_memory = end == ExplorationEnd::max_memory;
+  verdict.lacks_memory = end == Budget::End::max_memory;
 }
 
 }  // namespace
