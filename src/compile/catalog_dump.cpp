@@ -10,8 +10,8 @@
 #include "core/catalog/situation.h"
 #include "core/compile/catalog_json.h"
 #include "core/compile/compile.h"
-#include "core/report/words.h"
 #include "core/support/json_description.h"
+#include "core/words/words.h"
 
 namespace cbc {
 namespace json::dump {

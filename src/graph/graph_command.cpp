@@ -295,8 +295,7 @@ std::unique_ptr<Drawable> read_state(const std::string& catalog, const StateOpti
   std::optional<Mission> mission = load_mission(catalog, *options.script);
   if (!mission) return nullptr;
   const WantedState wanted = wanted_state(options);
-  CoordinatorOptions coordination;
-  coordination.find_conflicts = false;
+  const CoordinatorOptions coordination;
   StateRecorder recorder(*mission->catalog, mission->script, wanted);
   const RunResult result = run_script(*mission->catalog, mission->script, coordination, recorder);
   if (!recorder.has_passed()) {

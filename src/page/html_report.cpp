@@ -128,7 +128,7 @@ void HtmlReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   failures_left_ = most_later_failures;
 }
 
-void HtmlReport::on_event(const EventRecord& record, const Step* step, const State& state) {
+void HtmlReport::on_event(const ExplainedRecord& record, const Step* step, const State& state) {
   if (is_full()) {
     ++left_out_of_run_;
     json_.leave_out(record, step, state);

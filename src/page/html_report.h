@@ -37,7 +37,7 @@ class HtmlReport final : public SolveReport {
       : json_(memory_.stream(), {adds.why, adds.alternatives, true}), limit_(limit) {}
 
   void begin_run(const CompiledCatalog& catalog, const Script& script) override;
-  void on_event(const EventRecord& record, const Step* step, const State& state) override;
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override;
   void on_success(const Success& success) override;
   void on_failure(const Failure& failure) override;
   void on_end(const State& state) override;

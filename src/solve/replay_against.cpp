@@ -18,12 +18,12 @@
 #include "core/files/file_set.h"
 #include "core/files/output.h"
 #include "core/files/read.h"
-#include "core/report/layout.h"
 #include "core/report/table.h"
-#include "core/report/words.h"
 #include "core/script/event_lines.h"
 #include "core/script/runner.h"
 #include "core/support/wording.h"
+#include "core/words/layout.h"
+#include "core/words/words.h"
 #include "runtime/base/text.h"
 #include "runtime/compiled/compiled_file.h"
 #include "solve/solve.h"
@@ -166,7 +166,7 @@ class Answers final : public RunListener {
  public:
   explicit Answers(const CompiledCatalog& catalog) : catalog_(catalog) {}
 
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override {
     Answer& answer = answers_.emplace_back();
     answer.time = record.time;
     answer.index = record.index;
@@ -289,7 +289,7 @@ class ReplayAgainst {
     text = utf8::without_byte_order_mark(text);
     const auto header = log_.read_header(take_line(text));
     if (!header) return complain("cannot read {}: {}", quote(name_), log_.error());
-    CoordinatorOptions of_coordinator = coordinator_options(options_, catalog_);
+    CoordinatorOptions of_coordinator = coordinator_options(options_);
     of_coordinator.reactive_delay = header->reactive_delay;
     of_coordinator.timeouts = header->timeouts;
     Runner runner(catalog_, of_coordinator, answers_);

@@ -141,7 +141,7 @@ class StreamReplay {
         log_(catalog_) {}
 
   int run(const std::optional<Snapshot>& state) {
-    CoordinatorOptions of_coordinator = coordinator_options(options_, catalog_);
+    CoordinatorOptions of_coordinator = coordinator_options(options_);
     const auto header = read_header(state, of_coordinator);
     if (!header) return exit_unusable;
     catalog_.file = header->catalog;  // some messages name it
@@ -155,7 +155,7 @@ class StreamReplay {
     EventStream events(
         catalog_, is_silent_ ? EventAdditions() : event_additions(options_),
         [this](const EventStream::Line& line) { compare(line.text); }, [](const Failure&) {});
-    Runner runner(catalog_, of_coordinator, events);
+    Runner runner(catalog_, of_coordinator, events, questions_of(options_, catalog_));
     if (state) {
       runner.resume(*state);
     } else {

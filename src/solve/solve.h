@@ -57,9 +57,9 @@ struct SolveOptions {
   WhatIfOptions what_if;
 };
 
-/// The options of the coordinator for a run on this catalog, which must know all names.
-[[nodiscard]] CoordinatorOptions coordinator_options(const SolveOptions& options,
-                                                     const CompiledCatalog& catalog);
+[[nodiscard]] CoordinatorOptions coordinator_options(const SolveOptions& options);
+/// What to ask about the events of a run on this catalog, which must know all names.
+[[nodiscard]] Questions questions_of(const SolveOptions& options, const CompiledCatalog& catalog);
 
 /// The optional members of events in JSON.
 [[nodiscard]] EventAdditions event_additions(const SolveOptions& options);

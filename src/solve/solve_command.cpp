@@ -18,18 +18,6 @@
 namespace cbc::cli {
 namespace {
 
-/// The explanations that are wanted for a catalog, which must know all names.
-ExplanationOptions explanation_for(const CompiledCatalog& catalog, const ExplainOptions& options) {
-  ExplanationOptions result;
-  result.alternatives = options.alternatives;
-  for (const std::string& name : options.why) {
-    // A task and a behavior may have the same name.
-    if (const auto task = catalog.find_task(name)) result.why.push_back({true, *task});
-    if (const auto behavior = catalog.find_behavior(name)) result.why.push_back({false, *behavior});
-  }
-  return result;
-}
-
 /// A hint at the name that may have been meant.
 std::string suggest(const CompiledCatalog& catalog, const std::string& name) {
   std::vector<std::string_view> names;
@@ -40,15 +28,23 @@ std::string suggest(const CompiledCatalog& catalog, const std::string& name) {
 
 }  // namespace
 
-CoordinatorOptions coordinator_options(const SolveOptions& options,
-                                       const CompiledCatalog& catalog) {
+CoordinatorOptions coordinator_options(const SolveOptions& options) {
   CoordinatorOptions result = coordinator_options(options.search);
   if (!options.time_limit.empty()) {
     result.search.time_limit = std::chrono::microseconds(parse_seconds(options.time_limit).value);
   }
-  result.explain = explanation_for(catalog, options.explain);
-  result.explain.displaced = true;
   result.measure_time = options.stats;
+  return result;
+}
+
+Questions questions_of(const SolveOptions& options, const CompiledCatalog& catalog) {
+  Questions result{
+      .rejections = true, .displaced = true, .alternatives = options.explain.alternatives};
+  for (const std::string& name : options.explain.why) {
+    // A task and a behavior may have the same name.
+    if (const auto task = catalog.find_task(name)) result.why.push_back({true, *task});
+    if (const auto behavior = catalog.find_behavior(name)) result.why.push_back({false, *behavior});
+  }
   return result;
 }
 

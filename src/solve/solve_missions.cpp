@@ -15,11 +15,11 @@
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
 #include "core/files/read.h"
-#include "core/report/layout.h"
 #include "core/report/run_report.h"
 #include "core/script/runner.h"
 #include "core/support/system.h"
 #include "core/support/wording.h"
+#include "core/words/layout.h"
 #include "page/html_report.h"
 #include "page/simulator.h"
 #include "runtime/base/text.h"
@@ -48,7 +48,7 @@ class ProgressReport final : public SolveReport {
     script_ = &script;
     progress_.begin(script.file);
   }
-  void on_event(const EventRecord& record, const Step* step, const State& /*state*/) override {
+  void on_event(const ExplainedRecord& record, const Step* step, const State& /*state*/) override {
     if (step != nullptr) last_step_ = static_cast<std::size_t>(step - script_->steps.data()) + 1;
     constexpr std::uint64_t events_between = 4096;
     if (record.index % events_between == 0) {
@@ -138,8 +138,7 @@ void point_to_tuning(const std::vector<Mission>& missions, const SolveOptions& o
 int run_missions(const std::vector<Mission>& missions, const SolveOptions& options,
                  SolveReport& report) {
   const auto run = [&](const Mission& mission, SolveReport& report_of_run) {
-    CoordinatorOptions coordination = coordinator_options(options, *mission.catalog);
-    coordination.last_decisions = true;  // to explain failed expectations
+    const CoordinatorOptions coordination = coordinator_options(options);
     report_of_run.begin_run(*mission.catalog, mission.script);
     if (!mission.outdated.empty()) {
       RunResult result;
@@ -148,7 +147,10 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
       report_of_run.end_run(result, mission.outdated);
       return result;
     }
-    RunResult result = run_script(*mission.catalog, mission.script, coordination, report_of_run);
+    Questions questions = questions_of(options, *mission.catalog);
+    questions.failures = true;
+    RunResult result = run_script(*mission.catalog, mission.script, coordination, report_of_run,
+                                  std::move(questions));
     report_of_run.end_run(result, describe_end(result, coordination));
     return result;
   };
@@ -156,7 +158,7 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
   bool has_failed = false;
   const auto after_run = [&](const Mission& mission, const RunResult& result) {
     has_failed |= result.failed > 0;
-    const std::string reason = describe_end(result, coordinator_options(options, *mission.catalog));
+    const std::string reason = describe_end(result, coordinator_options(options));
     if (!reason.empty()) complain_of_run(mission, result, reason);
     status = std::max(status, status_of(result));
   };

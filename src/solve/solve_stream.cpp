@@ -17,12 +17,12 @@
 #include "core/files/output.h"
 #include "core/files/read.h"
 #include "core/report/event_json.h"
-#include "core/report/failure_explanation.h"
-#include "core/report/words.h"
 #include "core/script/event_lines.h"
 #include "core/script/reader.h"
 #include "core/script/runner.h"
 #include "core/support/json.h"
+#include "core/words/failure_explanation.h"
+#include "core/words/words.h"
 #include "page/html_report.h"
 #include "page/serve/history.h"
 #include "page/serve/server.h"
@@ -163,7 +163,7 @@ class Stream {
               complain_of_line(failure.range.begin.line, failure.message);
               if (live_ != nullptr) live_->add(failure);
             }),
-        runner_(catalog, stopping(of_coordinator), events_) {}
+        runner_(catalog, stopping(of_coordinator), events_, questions(catalog)) {}
 
   /// False if --serve is not possible.
   [[nodiscard]] bool begin(const Situation& situation) {
@@ -278,6 +278,12 @@ class Stream {
 
   [[nodiscard]] bool is_stopped() const { return signals_.have_come() || output_.has_failed(); }
 
+  [[nodiscard]] Questions questions(const CompiledCatalog& catalog) const {
+    Questions result = questions_of(options_, catalog);
+    result.failures = options_.stream.serve.has_value();  // the page explains failed expectations
+    return result;
+  }
+
   /// The same options, for a coordinator that stops with the stream.
   [[nodiscard]] CoordinatorOptions stopping(CoordinatorOptions options) const {
     options.is_stopped = [this] { return is_stopped(); };
@@ -366,7 +372,7 @@ std::optional<Script> load_script(const std::string& path, const CompiledCatalog
 int run_script_of(const Script& script, const CompiledCatalog& catalog, const SolveOptions& options,
                   const std::optional<Snapshot>& state) {
   if (!knows_names(catalog, options.explain)) return exit_unusable;
-  CoordinatorOptions coordinator = coordinator_options(options, catalog);
+  CoordinatorOptions coordinator = coordinator_options(options);
   coordinator.reactive_delay = state ? state->reactive_delay : script.reactive_delay;
   coordinator.timeouts = state ? state->timeouts : script.timeouts;
   if (state && !script.situation.is_empty()) {
@@ -396,9 +402,7 @@ int solve_mission(const SolveOptions& options) {
 int run_standard_input(const CompiledCatalog& catalog, const SolveOptions& options,
                        const std::optional<Snapshot>& state) {
   if (!knows_names(catalog, options.explain)) return exit_unusable;
-  CoordinatorOptions coordinator = coordinator_options(options, catalog);
-  coordinator.last_decisions =
-      options.stream.serve.has_value();  // the page explains failed expectations
+  CoordinatorOptions coordinator = coordinator_options(options);
   if (state) {
     coordinator.reactive_delay = state->reactive_delay;
     coordinator.timeouts = state->timeouts;

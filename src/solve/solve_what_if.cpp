@@ -48,8 +48,7 @@ int solve_what_if(const SolveOptions& options) {
   }
   const Mission& mission = missions->front();
   const CompiledCatalog& catalog = *mission.catalog;
-  CoordinatorOptions coordination = coordinator_options(options, catalog);
-  coordination.explain = {};
+  CoordinatorOptions coordination = coordinator_options(options);
   coordination = options_of(mission.script, std::move(coordination));
   const MomentSearch search =
       find_moment(catalog, mission.script, coordination, options.what_if.after);

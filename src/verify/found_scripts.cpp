@@ -16,8 +16,8 @@
 #include "core/files/output.h"
 #include "core/files/read.h"
 #include "core/property/properties.h"
-#include "core/report/move_words.h"
 #include "core/support/system.h"
+#include "core/words/move_words.h"
 #include "runtime/base/text.h"
 
 namespace cbc::cli {

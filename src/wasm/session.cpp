@@ -9,8 +9,8 @@
 
 #include "core/files/check_file.h"
 #include "core/files/file_set.h"
-#include "core/report/words.h"
 #include "core/script/reader.h"
+#include "core/words/words.h"
 #include "lint/report/lint_report.h"
 #include "page/html_report.h"
 #include "runtime/base/text.h"
@@ -57,24 +57,6 @@ Expectation expectation_of(const CompiledCatalog& catalog, const Step& step, con
   }
   return reached;
 }
-
-/// Takes one event of an entry that is done once more.
-class Repetition final : public RunListener {
- public:
-  Repetition(const CompiledCatalog& catalog, std::uint64_t wanted)
-      : catalog_(catalog), wanted_(wanted) {}
-
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
-    if (record.index != wanted_) return;
-    append_event(text, catalog_, record, step, state, {true, false, true});
-  }
-
-  std::string text;
-
- private:
-  const CompiledCatalog& catalog_;
-  const std::uint64_t wanted_;
-};
 
 }  // namespace
 
@@ -168,7 +150,7 @@ void Session::load(const JsonValue& request, JsonWriter& answer) {
   tell_present(answer);
   std::string obstacle;
   try {
-    for (Step& step : steps) take(std::move(step), false);
+    for (Step& step : steps) take({std::move(step)});
   } catch (const JsonFault& fault) {
     obstacle = fault.what();
   }
@@ -189,11 +171,11 @@ void Session::check_properties(const JsonValue& request, JsonWriter& answer) con
 
 CoordinatorOptions Session::options() const {
   CoordinatorOptions options = options_of(script_);
-  options.explain.displaced = true;
-  options.last_decisions = true;
   options.max_clock_events = most_clock_events;
   return options;
 }
+
+Questions Session::questions() { return {.rejections = true, .displaced = true, .failures = true}; }
 
 /// Begins anew.
 void Session::begin(Script script) {
@@ -215,7 +197,7 @@ void Session::begin(Script script) {
       [this](const Failure& failure) {
         append_failure(new_failures_.emplace_back(), *catalog_, failure, explanation_);
       });
-  runner_.emplace(*catalog_, options(), *stream_);
+  runner_.emplace(*catalog_, options(), *stream_, questions());
   explanation_.begin_stream(*catalog_);
   runner_->begin(script_.situation);
   start_ = runner_->snapshot();
@@ -228,7 +210,7 @@ const Snapshot& Session::present() const {
 
 /// Goes back to the present state, whatever was done after it.
 void Session::resume() {
-  runner_.emplace(*catalog_, options(), *stream_);
+  runner_.emplace(*catalog_, options(), *stream_, questions());
   runner_->resume(present());
   explanation_.begin_stream(*catalog_);
 }
@@ -258,11 +240,9 @@ void Session::run(Entry& entry) {
 }
 
 /// Does an entry in the present state; those that came after it are gone.
-void Session::take(Step step, bool is_clock) {
-  const auto entry = std::make_shared<Entry>();
-  entry->step = std::move(step);
+void Session::take(Call call) {
+  const auto entry = std::make_shared<Entry>(Entry{std::move(call)});
   entry->step.time = std::max(entry->step.time.value_or(0), next_time());
-  entry->is_clock = is_clock;
   const auto now = events_.begin() + static_cast<std::ptrdiff_t>(present().events);
   const std::vector<Happened> later(now, events_.end());
   const std::size_t told = new_events_.size();
@@ -329,20 +309,18 @@ void Session::apply(const JsonValue& request, JsonWriter& answer) {
   EventLines::Reading reading = read_entry(request["event"], *catalog_, runner_->coordinator());
   if (!reading.step) throw JsonFault(reading.error);
   const std::uint64_t before = present().events;
-  take(std::move(*reading.step), false);
+  take({std::move(*reading.step)});
   tell_news(before, answer);
   answer.write_list("warnings", reading.warnings);
 }
 
 void Session::advance(const JsonValue& request, JsonWriter& answer) {
   const auto to = request.find("to");
-  Step step;
-  step.expect.emplace();
-  step.time = to ? read_time(*to) : runner_->coordinator().next_due();
-  if (!step.time) throw JsonFault("nothing falls due");
-  if (*step.time < present().now) throw JsonFault("the clock cannot go back");
+  const auto time = to ? read_time(*to) : runner_->coordinator().next_due();
+  if (!time) throw JsonFault("nothing falls due");
+  if (*time < present().now) throw JsonFault("the clock cannot go back");
   const std::uint64_t before = present().events;
-  take(std::move(step), true);
+  take(clock_call(*time));
   tell_news(before, answer);
 }
 
@@ -364,10 +342,7 @@ void Session::go_to(const JsonValue& request, JsonWriter& answer) {
     // The clock made the event on its way to the entry.
     --position_;
     resume();
-    const auto part = std::make_shared<Entry>();
-    part->is_clock = true;
-    part->step.expect.emplace();
-    part->step.time = events_[index - 1].time;
+    const auto part = std::make_shared<Entry>(Entry{clock_call(events_[index - 1].time)});
     const std::size_t known = events_.size();
     run(*part);
     events_.resize(known);
@@ -440,13 +415,15 @@ void Session::why(const JsonValue& request, JsonWriter& answer) {
   std::size_t place = 0;
   while (place < position_ && entries_[place]->after.events < wanted) ++place;
   const Entry& entry = place < position_ ? *entries_[place] : *cut_;
-  Repetition repetition(*catalog_, wanted);
-  CoordinatorOptions of_repetition = options();
-  of_repetition.explain.why = {{true, *task}};
-  Runner runner(*catalog_, of_repetition, repetition);
-  runner.resume(place == 0 ? start_ : entries_[place - 1]->after);
-  if (runner.take(entry.step) && entry.is_clock) static_cast<void>(runner.settle());
-  answer.write_json("event", repetition.text);
+  Questions of_repetition = questions();
+  of_repetition.why = {{true, *task}};
+  std::string text;
+  repeat(*catalog_, options(), place == 0 ? start_ : entries_[place - 1]->after, entry,
+         of_repetition, [&](const ExplainedRecord& record, const Step* step, const State& state) {
+           if (record.index != wanted) return;
+           append_event(text, *catalog_, record, step, state, {true, false, true});
+         });
+  answer.write_json("event", text);
 }
 
 void Session::write_mission(JsonWriter& answer) const {

@@ -12,11 +12,12 @@
 #include "core/check/check.h"
 #include "core/check/controls.h"
 #include "core/report/event_json.h"
-#include "core/report/failure_explanation.h"
 #include "core/script/event_lines.h"
+#include "core/script/repetition.h"
 #include "core/script/runner.h"
 #include "core/script/script.h"
 #include "core/support/json.h"
+#include "core/words/failure_explanation.h"
 #include "core/yaml/json_value.h"
 #include "runtime/coordinator/state.h"
 
@@ -54,12 +55,10 @@ class Session {
 
  private:
   /// An event or an expectation, or the clock that moves on, and what came of it.
-  struct Entry {
-    Step step;
-    bool is_clock = false;    ///< all that is due at the time of the step is done, too
+  struct Entry : Call {
     bool is_settled = false;  ///< something was due then, so no other entry may have that time
-    Snapshot after;
-    Expectation reached;
+    Snapshot after = {};
+    Expectation reached = {};
 
     [[nodiscard]] bool is_expectation() const { return step.expect && !is_clock; }
   };
@@ -83,9 +82,10 @@ class Session {
   void begin(Script script);
   void resume();
   [[nodiscard]] CoordinatorOptions options() const;
+  [[nodiscard]] static Questions questions();
   [[nodiscard]] const Snapshot& present() const;
   [[nodiscard]] Microseconds next_time() const;
-  void take(Step step, bool is_clock);
+  void take(Call call);
   void run(Entry& entry);
   void tell_present(JsonWriter& answer) const;
   void tell_place(JsonWriter& answer) const;

@@ -71,16 +71,15 @@ class Page {
     const auto script = read_script(*parsed, *compiled, Severity::warning, of_mission);
     EXPECT_TRUE(script) << mission;
     Run run;
-    CoordinatorOptions options;
-    options.explain.displaced = true;
+    Questions questions{.rejections = true, .displaced = true};
     EventAdditions adds{!why.empty(), false, true};
-    if (const auto task = compiled->find_task(why)) options.explain.why = {{true, *task}};
+    if (const auto task = compiled->find_task(why)) questions.why = {{true, *task}};
     EventStream stream(
         *compiled, adds,
         [&](const EventStream::Line& line) { run.events.push_back(Json::parse(line.text)); },
         [&](const Failure& failure) { ADD_FAILURE() << failure.message << '\n'
                                                     << mission; });
-    const RunResult result = run_script(*compiled, *script, options, stream);
+    const RunResult result = run_script(*compiled, *script, {}, stream, questions);
     run.passed = result.passed;
     run.failed = result.failed;
     return run;

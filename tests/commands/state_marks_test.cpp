@@ -33,7 +33,7 @@ class Witness final : public RunListener {
     first.priorities.resize(catalog.tasks.size());
     first.active.resize(catalog.behaviors.size());
   }
-  void on_event(const EventRecord& record, const Step* /*step*/, const State& state) override {
+  void on_event(const ExplainedRecord& record, const Step* /*step*/, const State& state) override {
     Moment& moment = moments.emplace_back();
     moment.time = record.time;
     for (TaskId task(0); task < catalog_.tasks.size(); ++task) {

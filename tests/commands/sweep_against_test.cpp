@@ -63,7 +63,7 @@ Script read(const CompiledCatalog& catalog, const std::string& text) {
 class Answers final : public RunListener {
  public:
   explicit Answers(const CompiledCatalog& catalog) : catalog_(catalog) {}
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override {
     if (step != nullptr) answers.emplace_back();
     if (answers.empty()) return;
     if (step != nullptr) answers.back().outcome = name_of(record.outcome);

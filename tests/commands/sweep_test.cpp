@@ -123,7 +123,7 @@ class Recount final : public RunListener {
     running_ = Json::object();
     requests_ = Json::object();
   }
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override {
     std::string text;
     append_event(text, catalog_, record, step, state, {});
     count(Json::parse(text));
@@ -210,7 +210,8 @@ void expect_recounted(const CompiledCatalog& catalog, const SweepSettings& setti
     const auto steps = steps_of_sequence(catalog, DrawnNames(catalog), settings, sequence, 0);
     EXPECT_EQ(steps.size(), settings.shape.events);
     const Script script = read(catalog, write_script(catalog, script_of(steps), ""));
-    EXPECT_EQ(run_script(catalog, script, {}, recount).status, Coordinator::Status::ok);
+    EXPECT_EQ(run_script(catalog, script, {}, recount, {.rejections = true}).status,
+              Coordinator::Status::ok);
   }
   const Json found = Json::parse(sweep_to_json(run(catalog, settings, 2)));
   for (const Json& item : found["events"]) {
@@ -322,7 +323,7 @@ TEST(Sweep, DrawsTheSameNumbersOnEveryMachine) {
 class NodesOf final : public RunListener {
  public:
   explicit NodesOf(std::uint64_t index) : index_(index) {}
-  void on_event(const EventRecord& record, const Step* /*step*/, const State&) override {
+  void on_event(const ExplainedRecord& record, const Step* /*step*/, const State&) override {
     if (record.index == index_ && record.search != nullptr) nodes = record.search->result.nodes;
   }
   void on_failure(const Failure& /*failure*/) override {}

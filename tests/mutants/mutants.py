@@ -17,7 +17,7 @@ import report
 import schemata
 import trials
 
-DEFAULT_PATHS = ["src/runtime/solver", "src/runtime/coordinator", "src/runtime/compiled/log_cost.cpp",
+DEFAULT_PATHS = ["src/runtime/solver", "src/runtime/coordinator", "src/why", "src/runtime/compiled/log_cost.cpp",
                  "src/runtime/compiled/verify.cpp"]
 SEED = 1
 PROPERTY_CASES = 150

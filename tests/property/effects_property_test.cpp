@@ -278,7 +278,6 @@ class Check : private CompiledModel {
     }
     Ignore ignore;
     CoordinatorOptions options;
-    options.find_conflicts = false;
     Coordinator coordinator(compiled_, options, ignore);
     coordinator.begin(own, situation.variables);
     for (const std::size_t behavior : effect.faults) {

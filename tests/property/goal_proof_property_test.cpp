@@ -89,7 +89,7 @@ class Watched final : public EventListener {
     watch_.on_decision(record, circumstances, solution);
   }
   void on_event(const EventRecord& record) override {
-    watch_.on_event(record, nullptr, coordinator->state());
+    watch_.note_event(record, coordinator->state());
   }
 
   const Coordinator* coordinator = nullptr;

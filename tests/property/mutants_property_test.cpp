@@ -211,7 +211,7 @@ std::shared_ptr<const yaml::Document> parse(const std::string& script) {
 class Recorder final : public RunListener {
  public:
   explicit Recorder(const CompiledCatalog& catalog) : catalog_(catalog) {}
-  void on_event(const EventRecord& /*record*/, const cbc::Step* /*step*/,
+  void on_event(const ExplainedRecord& /*record*/, const cbc::Step* /*step*/,
                 const State& /*state*/) override {}
   void on_end(const State& state) override {
     for (const BehaviorId behavior : catalog_.behavior_ids) {

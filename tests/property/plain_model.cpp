@@ -40,7 +40,6 @@ class FirstOutcome final : public EventListener {
 CoordinatorOptions plain_options() {
   CoordinatorOptions options;
   options.reactive_delay = reactive_delay;
-  options.find_conflicts = false;
   return options;
 }
 

@@ -21,7 +21,7 @@ class Recorder final : public RunListener {
     for (const TaskId task : tasks) groups_.push_back(catalog.tasks[task].group);
   }
 
-  void on_event(const EventRecord& record, const Step*, const State& state) override {
+  void on_event(const ExplainedRecord& record, const Step*, const State& state) override {
     demand(record.origin != Origin::timeout, "a timeout fired");
     if (!is_foreign(record)) {
       run_.happenings.push_back(happening_of(catalog_, record, state, tasks_));
@@ -61,7 +61,6 @@ ScriptRun run_text(const CompiledCatalog& catalog, const std::string& text,
   demand(script.has_value(), "no script");
   demand(!script->timeouts, "timeouts are on");
   CoordinatorOptions options;
-  options.find_conflicts = false;
   ScriptRun run;
   Recorder recorder(catalog, tasks, run);
   const RunResult result = run_script(catalog, *script, options, recorder);

@@ -67,7 +67,7 @@ class Recording {
       : events_(
             catalog, {}, [&lines](const EventStream::Line& line) { lines.emplace_back(line.text); },
             [](const Failure&) {}),
-        runner_(catalog, options, events_) {}
+        runner_(catalog, options, events_, {.rejections = true}) {}
 
   [[nodiscard]] Runner& runner() { return runner_; }
 

@@ -7,9 +7,9 @@
 #include "core/catalog/reader.h"
 #include "core/compile/compile.h"
 #include "core/report/event_json.h"
-#include "core/report/suitability.h"
 #include "core/script/reader.h"
 #include "core/script/runner.h"
+#include "core/words/suitability.h"
 #include "core/yaml/document.h"
 #include "runtime/compiled/compiled_file.h"
 
@@ -25,7 +25,7 @@ namespace {
   throw std::runtime_error(text);
 }
 
-nlohmann::ordered_json event_to_json(const CompiledCatalog& catalog, const EventRecord& record,
+nlohmann::ordered_json event_to_json(const CompiledCatalog& catalog, const ExplainedRecord& record,
                                      const Step* step, const State& state,
                                      const EventAdditions& adds) {
   std::string text;
@@ -37,7 +37,7 @@ class Events final : public RunListener {
  public:
   explicit Events(const CompiledCatalog& catalog) : catalog_(catalog) {}
 
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override {
     events_.push_back(event_to_json(catalog_, record, step, state, {}));
   }
   void on_failure(const Failure& failure) override { throw std::runtime_error(failure.message); }
@@ -70,9 +70,9 @@ class ExplainedEvents final : public RunListener {
  public:
   explicit ExplainedEvents(const CompiledCatalog& catalog) : catalog_(catalog) {}
 
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override {
     auto event = event_to_json(catalog_, record, step, state, {true, true});
-    EventRecord of_displaced = record;
+    ExplainedRecord of_displaced = record;
     of_displaced.explanation.why.clear();
     for (const Displacement& displaced : record.explanation.displaced) {
       Why why;
@@ -102,7 +102,7 @@ nlohmann::ordered_json run(const CompiledCatalog& catalog, const cbc::Script& sc
   CoordinatorOptions options;
   options.search.easy_nodes = easy_nodes;
   options.search.bounded_nodes = bounded_nodes;
-  const RunResult result = run_script(catalog, script, options, events);
+  const RunResult result = run_script(catalog, script, options, events, {.rejections = true});
   if (result.status != Coordinator::Status::ok) {
     throw std::runtime_error("the run ended early: " + result.internal_error);
   }
@@ -136,7 +136,7 @@ class Outcomes final : public RunListener {
 
   explicit Outcomes(const CompiledCatalog& catalog) : catalog_(catalog) {}
 
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override {
     if (step == nullptr) return;
     last = {};
     last.is_finish = record.verb == Verb::finish;
@@ -255,17 +255,16 @@ nlohmann::ordered_json run_subject(const std::string& catalog_yaml,
 nlohmann::ordered_json explain_subject(const std::string& catalog_yaml,
                                        const std::string& script_yaml, std::uint32_t alternatives) {
   const CompiledCatalog compiled = compile_text(catalog_yaml);
-  CoordinatorOptions options;
-  options.explain.displaced = true;
-  options.explain.alternatives = alternatives;
+  Questions questions{.rejections = true, .displaced = true, .alternatives = alternatives};
   for (std::uint32_t task = 0; task < compiled.task_names.size(); ++task) {
-    options.explain.why.push_back({true, task});
+    questions.why.push_back({true, task});
   }
   for (std::uint32_t behavior = 0; behavior < compiled.behavior_names.size(); ++behavior) {
-    options.explain.why.push_back({false, behavior});
+    questions.why.push_back({false, behavior});
   }
   ExplainedEvents events(compiled);
-  const RunResult result = run_script(compiled, read_text(script_yaml, compiled), options, events);
+  const RunResult result =
+      run_script(compiled, read_text(script_yaml, compiled), {}, events, questions);
   if (result.status != Coordinator::Status::ok) {
     throw std::runtime_error("the run ended early: " + result.internal_error);
   }

@@ -14,7 +14,7 @@
 #include "catalog_changes.h"
 #include "core/catalog/reader.h"
 #include "core/compile/compile.h"
-#include "core/report/move_words.h"
+#include "core/words/move_words.h"
 #include "demand.h"
 #include "explore/properties/verification.h"
 #include "model.h"

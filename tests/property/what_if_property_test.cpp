@@ -35,7 +35,7 @@ constexpr std::uint64_t default_cases = 600;
 
 /// What an event did. Without what depends on the way to it: its number, the time, which may be a
 /// microsecond later, and the effort of the search.
-Json plain_event(const CompiledCatalog& catalog, const EventRecord& record, const Step* step,
+Json plain_event(const CompiledCatalog& catalog, const ExplainedRecord& record, const Step* step,
                  const State& state) {
   std::string text;
   append_event(text, catalog, record, step, state, {});
@@ -63,7 +63,7 @@ class Recorder final : public RunListener {
   Recorder(const CompiledCatalog& catalog, const cbc::Script& script)
       : catalog_(catalog), script_(script) {}
 
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override {
     Happened& entry = events.emplace_back();
     entry.time = record.time;
     entry.origin = record.origin;
@@ -81,7 +81,7 @@ class Recorder final : public RunListener {
 std::vector<Happened> run(const CompiledCatalog& catalog, const cbc::Script& script,
                           const CoordinatorOptions& options) {
   Recorder recorder(catalog, script);
-  const RunResult result = run_script(catalog, script, options, recorder);
+  const RunResult result = run_script(catalog, script, options, recorder, {.rejections = true});
   demand(result.status == Coordinator::Status::ok, "a run ended early");
   return recorder.events;
 }
@@ -149,7 +149,7 @@ struct Found {
 };
 
 void count(const PossibleMove& move, const CompiledCatalog& catalog, Statistics& statistics) {
-  const EventRecord& record = move.events.front().record;
+  const ExplainedRecord& record = move.events.front().record;
   const MoveEffects effects = effects_of(catalog, move);
   const bool changes =
       !effects.started.empty() || !effects.stopped.empty() || !effects.changed.empty();
@@ -212,7 +212,7 @@ Found find_moves(const CompiledCatalog& catalog, const cbc::Script& script,
     for (const PossibleMove::Event& event : move.events) {
       events.push_back(plain_event(catalog, event.record, event.step, event.after));
     }
-    const EventRecord& record = move.events.front().record;
+    const ExplainedRecord& record = move.events.front().record;
     if (record.origin == Origin::script) {
       demand(!found.clock, "a step behind the clock");
       found.of_steps.push_back(std::move(events));

@@ -1,6 +1,6 @@
 // Problems with only some reasons in force, against a search through all assignments.
 
-#include "runtime/explain/conflict_search.h"
+#include "ask/conflict/conflict_search.h"
 
 #include <algorithm>
 #include <chrono>
@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "ask/conflict/reasons.h"
 #include "core/compile/compile.h"
-#include "runtime/explain/reasons.h"
 #include "support/rounds.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"

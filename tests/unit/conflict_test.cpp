@@ -8,7 +8,6 @@
 #include "core/report/run_text.h"
 #include "core/script/runner.h"
 #include "core/support/system.h"
-#include "runtime/coordinator/explainer.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::conflict_test {
@@ -39,7 +38,7 @@ std::string report_of_chain(int length) {
   MemoryFile memory;
   TextReport report(plain_style(), memory.stream());
   report.begin_run(catalog, script);
-  (void)run_script(catalog, script, {}, report);
+  (void)run_script(catalog, script, {}, report, {.rejections = true});
   return std::string(memory.text());
 }
 

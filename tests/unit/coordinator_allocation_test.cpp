@@ -83,7 +83,6 @@ TEST(CoordinatorAllocation, NothingIsAllocatedOnEventsThatWereThereBefore) {
         test::restless_catalog(random, static_cast<std::uint32_t>(random.between(3, 40)));
     const test::RandomMission mission(random, catalog, 500);
     CoordinatorOptions options;
-    options.find_conflicts = false;
     if (round % 3 == 0) options.search.easy_nodes = 0;
     if (round % 4 == 0) options.search.time_limit = std::chrono::hours(1);
     Coordinator coordinator(catalog, options, witness);

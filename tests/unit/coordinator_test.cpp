@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/script/runner.h"
 #include "unit/compiled_fixture.h"
 #include "unit/stage.h"
 
@@ -300,8 +301,8 @@ TEST(SearchLimits, ThatLeaveAFinishWithoutSolutionEscalateIt) {
 }
 
 TEST(SearchLimits, OfTimeEndTheSearchForReasons) {
-  struct Reasons final : EventListener {
-    void on_event(const EventRecord& record) override {
+  struct Reasons final : RunListener {
+    void on_event(const ExplainedRecord& record, const Step*, const State&) override {
       status = record.search->result.status;
       count = record.conflict.size();
     }
@@ -313,15 +314,15 @@ TEST(SearchLimits, OfTimeEndTheSearchForReasons) {
     CoordinatorOptions options;
     options.search.time_limit = limit;
     Reasons reasons;
-    Coordinator coordinator(catalog, options, reasons);
-    coordinator.begin({});
-    Event start;
+    Runner runner(catalog, options, reasons, {.rejections = true});
+    runner.begin({});
+    Step start;
     start.verb = Verb::start;
     start.priority = 2;
-    EXPECT_EQ(coordinator.handle(start), Coordinator::Status::ok);
+    EXPECT_TRUE(runner.take(start));
     start.subject = 1;
     start.priority = 1;
-    EXPECT_EQ(coordinator.handle(start), Coordinator::Status::ok);
+    EXPECT_TRUE(runner.take(start));
     EXPECT_EQ(reasons.status, SearchStatus::infeasible) << "by propagation at the root";
     EXPECT_EQ(reasons.count == 0, limit.count() > 0);
   }

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/compile/compile.h"
-#include "core/report/suitability.h"
-#include "core/report/words.h"
+#include "core/words/suitability.h"
+#include "core/words/words.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::exact_values_test {

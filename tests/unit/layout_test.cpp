@@ -1,4 +1,4 @@
-#include "core/report/layout.h"
+#include "core/words/layout.h"
 
 #include <string>
 #include <vector>

@@ -8,7 +8,7 @@
 #include "core/diagnostic/diagnostic.h"
 #include "core/property/properties.h"
 #include "core/property/property_reader.h"
-#include "core/report/words.h"
+#include "core/words/words.h"
 #include "core/yaml/document.h"
 #include "runtime/base/text.h"
 #include "unit/compiled_fixture.h"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/property/property_reader.h"
-#include "core/report/words.h"
+#include "core/words/words.h"
 #include "core/yaml/document.h"
 #include "findings.h"
 #include "support/catalog_files.h"

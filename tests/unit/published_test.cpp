@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/report/suitability.h"
+#include "core/words/suitability.h"
 #include "support/read_file.h"
 #include "support/shared_folder.h"
 #include "unit/stage.h"

@@ -35,7 +35,7 @@ Script read(const CompiledCatalog& catalog, std::string_view text) {
 
 /// Keeps the failures only.
 struct Silent final : RunListener {
-  void on_event(const EventRecord& /*record*/, const Step* /*step*/,
+  void on_event(const ExplainedRecord& /*record*/, const Step* /*step*/,
                 const State& /*state*/) override {}
   void on_failure(const Failure& failure) override { failed_after.push_back(failure.index); }
   void on_end(const State& /*state*/) override {}
@@ -197,7 +197,7 @@ situation:
 - {variable: DARK}
 )");
   class : public RunListener {
-    void on_event(const EventRecord&, const Step*, const State&) override {}
+    void on_event(const ExplainedRecord&, const Step*, const State&) override {}
   } nobody;
   Runner runner(catalog, {}, nobody);
   runner.begin({});

@@ -2,11 +2,11 @@
 #include <string>
 #include <vector>
 
+#include "ask/conflict/conflict_search.h"
+#include "ask/conflict/reasons.h"
 #include "core/check/proofs.h"
 #include "core/diagnostic/rules.h"
 #include "runtime/base/text.h"
-#include "runtime/explain/conflict_search.h"
-#include "runtime/explain/reasons.h"
 
 namespace cbc {
 namespace {

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "ask/conflict/reasons.h"
 #include "core/catalog/catalog.h"
 #include "core/check/proofs.h"
 #include "core/diagnostic/rules.h"
 #include "runtime/base/natural.h"
 #include "runtime/base/text.h"
-#include "runtime/explain/reasons.h"
 #include "runtime/solver/objective.h"
 
 namespace cbc {

@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "ask/conflict/conflict_search.h"
+#include "ask/conflict/reasons.h"
 #include "core/catalog/catalog.h"
 #include "core/catalog/reader.h"
 #include "core/check/check.h"
 #include "core/diagnostic/diagnostic.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "runtime/explain/conflict_search.h"
-#include "runtime/explain/reasons.h"
 #include "runtime/solver/problem.h"
 #include "runtime/solver/solver.h"
 

@@ -10,11 +10,11 @@
 #include <unordered_set>
 #include <vector>
 
+#include "ask/conflict/conflict_search.h"
+#include "ask/conflict/reasons.h"
 #include "core/check/controls.h"
 #include "core/check/proofs.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "runtime/explain/conflict_search.h"
-#include "runtime/explain/reasons.h"
 #include "runtime/solver/problem.h"
 
 /// Which tasks can run at the same time. A search decides, since exclusivity lists alone do not

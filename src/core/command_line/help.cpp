@@ -10,7 +10,7 @@
 
 #include "core/command_line/command_line.h"
 #include "core/files/output.h"
-#include "core/report/layout.h"
+#include "core/words/layout.h"
 
 // What --help prints, and the command that prints the same.
 namespace cbc::cli {

@@ -7,7 +7,7 @@
 
 #include <fmt/core.h>
 
-#include "core/report/words.h"
+#include "core/words/words.h"
 #include "runtime/base/text.h"
 
 namespace cbc::cli {

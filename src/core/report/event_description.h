@@ -13,10 +13,10 @@
 #include "core/report/event_json.h"
 #include "core/report/explanation_json.h"
 #include "core/report/search_stats.h"
-#include "core/report/suitability.h"
-#include "core/report/words.h"
 #include "core/script/state_json.h"
 #include "core/support/json_description.h"
+#include "core/words/suitability.h"
+#include "core/words/words.h"
 
 // The description of an event.
 

@@ -75,7 +75,7 @@ constexpr auto line = choice(
 
 }  // namespace json::stream
 
-void append_event(std::string& text, const CompiledCatalog& catalog, const EventRecord& record,
+void append_event(std::string& text, const CompiledCatalog& catalog, const ExplainedRecord& record,
                   const Step* step, const State& state, const EventAdditions& adds) {
   JsonWriter json(text);
   const json::EventWithState event{{catalog, record, state}, step, adds, {catalog, state}};
@@ -101,7 +101,7 @@ std::string stream_schema() {
   return json::schema("events", "A line of an event stream", json::stream::line);
 }
 
-void EventStream::on_event(const EventRecord& record, const Step* step, const State& state) {
+void EventStream::on_event(const ExplainedRecord& record, const Step* step, const State& state) {
   line_.clear();
   append_event(line_, catalog_, record, step, state, adds_);
   line_ += '\n';

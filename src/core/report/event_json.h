@@ -7,9 +7,9 @@
 #include <string_view>
 #include <utility>
 
-#include "core/report/failure_explanation.h"
 #include "core/script/runner.h"
 #include "core/script/script.h"
+#include "core/words/failure_explanation.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/record.h"
@@ -32,7 +32,7 @@ void append_failure(std::string& text, const CompiledCatalog& catalog, const Fai
 
 /// Appends one event as JSON on one line, as in cbc.solve/1. `step` is the scripted one, or null.
 /// No tree is built: streams write a hundred thousand events per second.
-void append_event(std::string& text, const CompiledCatalog& catalog, const EventRecord& record,
+void append_event(std::string& text, const CompiledCatalog& catalog, const ExplainedRecord& record,
                   const Step* step, const State& state, const EventAdditions& adds);
 
 // The lines of an event stream (schema cbc.events/1), each with its line end.
@@ -61,7 +61,7 @@ class EventStream final : public RunListener {
   /// A line with its end, and what it is about.
   struct Line {
     std::string_view text;
-    const EventRecord& record;
+    const ExplainedRecord& record;
     const Step* step;    ///< the scripted one, or null
     const State& state;  ///< after the event
   };
@@ -76,7 +76,7 @@ class EventStream final : public RunListener {
         take_line_(std::move(take_line)),
         take_failure_(std::move(take_failure)) {}
 
-  void on_event(const EventRecord& record, const Step* step, const State& state) override;
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override;
   void on_failure(const Failure& failure) override { take_failure_(failure); }
 
  private:

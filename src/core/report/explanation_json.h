@@ -7,17 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "ask/conflict/reasons.h"
 #include "core/compile/catalog_json.h"
-#include "core/report/explanation_words.h"
-#include "core/report/failure_explanation.h"
-#include "core/report/layout.h"
-#include "core/report/reason_words.h"
-#include "core/report/suitability.h"
 #include "core/support/json_description.h"
+#include "core/words/explanation_words.h"
+#include "core/words/failure_explanation.h"
+#include "core/words/layout.h"
+#include "core/words/reason_words.h"
+#include "core/words/suitability.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
-#include "runtime/explain/alternatives.h"
-#include "runtime/explain/reasons.h"
+#include "why/alternatives.h"
 
 // Why an event was decided as it was, as JSON. The context is that of a Decision.
 
@@ -26,7 +26,7 @@ namespace cbc::json {
 /// An event, and the state after it.
 struct Decision {
   const CompiledCatalog& catalog;
-  const EventRecord& record;
+  const ExplainedRecord& record;
   const State& state;
 
   [[nodiscard]] TaskId first_task() const { return catalog.group_tasks[record.search->group]; }

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/report/layout.h"
+#include "core/words/layout.h"
 
 namespace cbc {
 namespace {

@@ -11,15 +11,15 @@
 
 #include "core/report/event_description.h"
 #include "core/report/event_json.h"
-#include "core/report/explanation_words.h"
-#include "core/report/failure_explanation.h"
 #include "core/report/run_report.h"
 #include "core/report/search_stats.h"
 #include "core/report/totals_json.h"
-#include "core/report/words.h"
 #include "core/support/json.h"
 #include "core/support/json_description.h"
 #include "core/support/wording.h"
+#include "core/words/explanation_words.h"
+#include "core/words/failure_explanation.h"
+#include "core/words/words.h"
 
 namespace cbc {
 namespace json::solve {
@@ -111,7 +111,7 @@ struct OfFailure {
   };
 
   void write(JsonWriter& json, const UnexpectedTasks& tasks, const Context& context) const {
-    static const EventRecord nothing{};
+    static const ExplainedRecord nothing{};
     static const WhyNot no_answer{};
     const WhyUnmet& why_unmet = tasks.why_unmet;
     const FailureExplanation::Story story = context.explanation.explain(context.failure, tasks);
@@ -123,7 +123,7 @@ struct OfFailure {
       return;
     }
     const bool is_rejected = why_unmet.kind == WhyUnmet::Kind::rejected;
-    const EventRecord& event = is_rejected ? *why_unmet.event : nothing;
+    const ExplainedRecord& event = is_rejected ? *why_unmet.event : nothing;
     unexpected.write(
         json,
         Unexpected{
@@ -280,7 +280,7 @@ void JsonReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   failures_.clear();
 }
 
-void JsonReport::on_event(const EventRecord& record, const Step* step, const State& state) {
+void JsonReport::on_event(const ExplainedRecord& record, const Step* step, const State& state) {
   begin_item(is_first_event_, "\n ");
   event_.clear();
   append_event(event_, *catalog_, record, step, state, adds_);

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "core/report/event_json.h"
-#include "core/report/failure_explanation.h"
 #include "core/report/run_report.h"
+#include "core/words/failure_explanation.h"
 #include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc {
@@ -22,9 +22,9 @@ class JsonReport final : public SolveReport {
       : JsonReport(out, adds, false) {}
 
   void begin_run(const CompiledCatalog& catalog, const Script& script) override;
-  void on_event(const EventRecord& record, const Step* step, const State& state) override;
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override;
   /// An event that is only to be known to explanations of failed expectations.
-  void leave_out(const EventRecord& record, const Step* step, const State& state) {
+  void leave_out(const ExplainedRecord& record, const Step* step, const State& state) {
     explanation_.add(record, step, state);
   }
   void on_success(const Success& success) override;

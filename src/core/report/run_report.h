@@ -41,7 +41,7 @@ class ReportPair final : public SolveReport {
     first_.begin_run(catalog, script);
     second_.begin_run(catalog, script);
   }
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override {
     first_.on_event(record, step, state);
     second_.on_event(record, step, state);
   }

@@ -10,12 +10,12 @@
 #include <fmt/format.h>
 
 #include "core/diagnostic/diagnostic.h"
-#include "core/report/reason_words.h"
 #include "core/report/search_stats.h"
-#include "core/report/suitability.h"
 #include "core/report/table.h"
-#include "core/report/words.h"
 #include "core/support/wording.h"
+#include "core/words/reason_words.h"
+#include "core/words/suitability.h"
+#include "core/words/words.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
@@ -63,7 +63,7 @@ void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   flush();
 }
 
-void TextReport::on_event(const EventRecord& record, const Step* step, const State& state) {
+void TextReport::on_event(const ExplainedRecord& record, const Step* step, const State& state) {
   explanation_.add(record, step, state);
   summary_.add(record, step);
   const std::string note = describe_note(*catalog_, record, state);
@@ -97,7 +97,7 @@ void TextReport::write_event(const std::string& time, const std::string& event,
 }
 
 /// What follows the event on its line: the reasons of a rejection, or the changes.
-std::string TextReport::brief_details(const EventRecord& record) const {
+std::string TextReport::brief_details(const ExplainedRecord& record) const {
   std::string text;
   if (record.outcome == Outcome::rejected) {
     text = ": " + join(describe_rejection(*catalog_, record), "; ", without_indentation);
@@ -116,7 +116,7 @@ std::string TextReport::brief_details(const EventRecord& record) const {
   return text;
 }
 
-void TextReport::write_details(const EventRecord& record, const State& state) {
+void TextReport::write_details(const ExplainedRecord& record, const State& state) {
   if (record.outcome == Outcome::rejected) {
     for (const std::string& sentence : describe_rejection(*catalog_, record)) write({sentence, {}});
     if (record.origin == Origin::reactive && state.is_waiting(record.task)) {
@@ -137,7 +137,7 @@ void TextReport::write_details(const EventRecord& record, const State& state) {
   }
 }
 
-std::string TextReport::outcome_of(const EventRecord& record, const State& state) const {
+std::string TextReport::outcome_of(const ExplainedRecord& record, const State& state) const {
   if (!form_of(record.verb).is_decided) return {};
   std::string_view color = style_.faint;
   if (record.outcome == Outcome::accepted) color = style_.good;
@@ -196,12 +196,12 @@ void TextReport::write_stopped(const EventRecord& record) {
 }
 
 /// The answers to --why and --alternatives.
-void TextReport::write_asked(const EventRecord& record, const State& state) {
+void TextReport::write_asked(const ExplainedRecord& record, const State& state) {
   for (const Why& why : record.explanation.why) write(describe_why(*catalog_, record, why, state));
   write_alternatives(record, state);
 }
 
-void TextReport::write_alternatives(const EventRecord& record, const State& state) {
+void TextReport::write_alternatives(const ExplainedRecord& record, const State& state) {
   const std::size_t count = record.explanation.alternatives.size();
   if (count == 0) return;
   write(Sentences{"best configurations:", {}});

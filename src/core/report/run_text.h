@@ -12,13 +12,13 @@
 
 #include "cbc/units.h"
 #include "core/diagnostic/diagnostic.h"
-#include "core/report/explanation_words.h"
-#include "core/report/failure_explanation.h"
-#include "core/report/layout.h"
 #include "core/report/run_report.h"
 #include "core/report/table.h"
 #include "core/script/runner.h"
 #include "core/script/script.h"
+#include "core/words/explanation_words.h"
+#include "core/words/failure_explanation.h"
+#include "core/words/layout.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/record.h"
 
@@ -73,7 +73,7 @@ class TextReport final : public SolveReport {
       : style_(style), layout_(layout), out_(out), text_(style, layout.columns) {}
 
   void begin_run(const CompiledCatalog& catalog, const Script& script) override;
-  void on_event(const EventRecord& record, const Step* step, const State& state) override;
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override;
   void on_failure(const Failure& failure) override;
   /// Something that is no event, at its place among the events.
   void write_between(Microseconds time, const std::string& what,
@@ -88,15 +88,15 @@ class TextReport final : public SolveReport {
   void add_part(std::string_view text, const RunResult& result) override;
 
  private:
-  [[nodiscard]] std::string outcome_of(const EventRecord& record, const State& state) const;
-  [[nodiscard]] std::string brief_details(const EventRecord& record) const;
+  [[nodiscard]] std::string outcome_of(const ExplainedRecord& record, const State& state) const;
+  [[nodiscard]] std::string brief_details(const ExplainedRecord& record) const;
   void write_event(const std::string& time, const std::string& event, const std::string& outcome);
-  void write_details(const EventRecord& record, const State& state);
+  void write_details(const ExplainedRecord& record, const State& state);
   void write_change(const EventRecord& record, const Change& change);
   void write_failed(const EventRecord& record);
   void write_stopped(const EventRecord& record);
-  void write_asked(const EventRecord& record, const State& state);
-  void write_alternatives(const EventRecord& record, const State& state);
+  void write_asked(const ExplainedRecord& record, const State& state);
+  void write_alternatives(const ExplainedRecord& record, const State& state);
   void write(const Sentences& sentences);
   void flush();
   void count(const RunResult& result);

@@ -7,9 +7,9 @@
 
 #include "core/diagnostic/diagnostic.h"
 #include "core/report/table.h"
-#include "core/report/words.h"
 #include "core/support/json.h"
 #include "core/support/wording.h"
+#include "core/words/words.h"
 
 namespace cbc {
 namespace {

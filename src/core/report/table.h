@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
-#include "core/report/layout.h"
+#include "core/words/layout.h"
 #include "runtime/base/text.h"
 
 namespace cbc {

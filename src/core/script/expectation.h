@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "ask/conflict/reasons.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/script/names.h"
 #include "core/script/script.h"
 #include "core/yaml/document.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/state.h"
-#include "runtime/explain/reasons.h"
 
 namespace cbc {
 

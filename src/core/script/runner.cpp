@@ -197,7 +197,8 @@ void Runner::on_event(const EventRecord& record) {
   if (record.outcome == Outcome::accepted) ++result_.accepted;
   if (record.outcome == Outcome::rejected) ++result_.rejected;
   if (result_.totals) result_.totals->add(record);
-  listener_.on_event(record, is_scripted ? step_ : nullptr, coordinator_.state());
+  const State& state = coordinator_.state();
+  listener_.on_event(inquiry_.on_event(record, state), is_scripted ? step_ : nullptr, state);
 }
 
 bool Runner::note(Coordinator::Status status) {
@@ -217,7 +218,7 @@ void Runner::check(const Step& step) {
     ++result_.failed;
     result_.failures.push_back({step.range, mismatch});
     Failure failure{result_.failed, index_, step.range, std::move(mismatch), &step, &state, {}};
-    if (keeps_decisions_ && failure.number <= most_explained) {
+    if (inquiry_.keeps_moments() && failure.number <= most_explained) {
       failure.unexpected = find_unexpected(*step.expect);
     }
     listener_.on_failure(failure);
@@ -226,10 +227,10 @@ void Runner::check(const Step& step) {
 
 std::vector<UnexpectedTasks> Runner::find_unexpected(const Expectation& expectation) {
   std::vector<UnexpectedTasks> unexpected;
-  for (ExpectedValues& expected :
-       find_expected_values(expectation, catalog_, coordinator_.state())) {
+  const State& state = coordinator_.state();
+  for (ExpectedValues& expected : find_expected_values(expectation, catalog_, state)) {
     unexpected.push_back({expected.group, std::move(expected.tasks),
-                          coordinator_.why_unmet(expected.group, expected.ways)});
+                          inquiry_.why_unmet(state, expected.group, expected.ways)});
   }
   return unexpected;
 }
@@ -254,15 +255,15 @@ CoordinatorOptions options_of(const Script& script, CoordinatorOptions options) 
 }
 
 RunResult run_script(const CompiledCatalog& catalog, const Script& script,
-                     const CoordinatorOptions& options, RunListener& listener) {
-  CoordinatorOptions of_script = options_of(script, options);
+                     const CoordinatorOptions& options, RunListener& listener,
+                     Questions questions) {
   // Without expectations nobody asks.
-  of_script.last_decisions = options.last_decisions &&
-                             std::any_of(script.steps.begin(), script.steps.end(),
-                                         [](const Step& step) { return step.expect.has_value(); });
+  questions.failures =
+      questions.failures && std::any_of(script.steps.begin(), script.steps.end(),
+                                        [](const Step& step) { return step.expect.has_value(); });
   // When and why a task stopped is a part of why it does not run.
-  of_script.explain.displaced |= of_script.last_decisions;
-  Runner runner(catalog, of_script, listener);
+  questions.displaced |= questions.failures;
+  Runner runner(catalog, options_of(script, options), listener, std::move(questions));
   runner.begin(script.situation);
   bool goes_on = true;
   for (const Step& step : script.steps) {

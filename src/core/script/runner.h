@@ -6,15 +6,18 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cbc/event.h"
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/coordinator.h"
-#include "runtime/coordinator/last_decisions.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
+#include "why/explanation.h"
+#include "why/inquiry.h"
+#include "why/unmet.h"
 
 namespace cbc {
 
@@ -98,7 +101,7 @@ struct Failure {
   std::string message;
   const Step* step = nullptr;    ///< the entry of the script
   const State* state = nullptr;  ///< in which it does not hold
-  /// By group, in catalog order; only with CoordinatorOptions::last_decisions. Empty where the
+  /// By group, in catalog order; only with Questions::failures. Empty where the
   /// outcome alone is wrong, and after the first `most_explained` failures.
   std::vector<UnexpectedTasks> unexpected;
 };
@@ -114,7 +117,7 @@ class RunListener {
  public:
   virtual ~RunListener() = default;
   /// `step` is the scripted one, or null. The record and the state are those after the event.
-  virtual void on_event(const EventRecord& record, const Step* step, const State& state) = 0;
+  virtual void on_event(const ExplainedRecord& record, const Step* step, const State& state) = 0;
   /// Of each search: see EventListener.
   virtual void on_search(const Problem& /*problem*/, const Assignment* /*solution*/) {}
   /// Before the record of an event that took a search: see EventListener.
@@ -129,7 +132,7 @@ class RunListener {
 /// For runs of which only the result matters.
 class SilentRun final : public RunListener {
  public:
-  void on_event(const EventRecord& /*record*/, const Step* /*step*/,
+  void on_event(const ExplainedRecord& /*record*/, const Step* /*step*/,
                 const State& /*state*/) override {}
 };
 
@@ -163,10 +166,11 @@ struct RunResult {
 class Runner final : private EventListener {
  public:
   /// `catalog` and `listener` must outlive this object.
-  Runner(const CompiledCatalog& catalog, const CoordinatorOptions& options, RunListener& listener)
+  Runner(const CompiledCatalog& catalog, const CoordinatorOptions& options, RunListener& listener,
+         Questions questions = {})
       : catalog_(catalog),
-        keeps_decisions_(options.last_decisions),
         listener_(listener),
+        inquiry_(catalog, options, std::move(questions)),
         coordinator_(catalog, options, *this) {
     if (options.measure_time) result_.totals.emplace();
   }
@@ -196,6 +200,7 @@ class Runner final : private EventListener {
   }
   void on_decision(const EventRecord& record, const Circumstances& circumstances,
                    const Assignment* solution) override {
+    inquiry_.on_decision(record, circumstances, solution);
     listener_.on_decision(record, circumstances, solution);
   }
   [[nodiscard]] bool note(Coordinator::Status status);
@@ -203,8 +208,8 @@ class Runner final : private EventListener {
   [[nodiscard]] std::vector<UnexpectedTasks> find_unexpected(const Expectation& expectation);
 
   const CompiledCatalog& catalog_;
-  const bool keeps_decisions_;
   RunListener& listener_;
+  Inquiry inquiry_;
   Coordinator coordinator_;
   RunResult result_;
   const Step* step_ = nullptr;
@@ -214,6 +219,7 @@ class Runner final : private EventListener {
 
 /// Runs a script, with its own reactive delay, through a coordinator.
 [[nodiscard]] RunResult run_script(const CompiledCatalog& catalog, const Script& script,
-                                   const CoordinatorOptions& options, RunListener& listener);
+                                   const CoordinatorOptions& options, RunListener& listener,
+                                   Questions questions = {});
 
 }  // namespace cbc

@@ -156,7 +156,7 @@ ConstraintRelaxation::ConstraintRelaxation(const CompiledCatalog& catalog,
 
 bool ConstraintRelaxation::load(const EventRecord& record, const Circumstances& circumstances,
                                 const Assignment* solution) {
-  if (!is_proven(record.search->result.status)) return false;
+  if (record.search == nullptr || !is_proven(record.search->result.status)) return false;
   solution_ = solution;
   ProblemBuilder builder(catalog_, circumstances.state);
   builder.load(circumstances.trigger, record.index);

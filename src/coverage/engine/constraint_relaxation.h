@@ -13,8 +13,6 @@
 #include "coverage/engine/goals.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/coordinator.h"
-#include "runtime/coordinator/explainer.h"
-#include "runtime/coordinator/problem_builder.h"
 #include "runtime/solver/problem.h"
 #include "runtime/solver/solver.h"
 

@@ -213,7 +213,7 @@ void GoalMonitor::ask_for_deciding(const EventRecord& record, const Circumstance
   if (relaxation_.was_protection_alone()) met_[number] = 1;
 }
 
-void GoalMonitor::on_event(const EventRecord& record, const Step* /*step*/, const State& state) {
+void GoalMonitor::note_event(const EventRecord& record, const State& state) {
   for (const Change& change : record.changes) {
     if (change.is_activation && !change.success) meet(Kind::behavior_failed, change.behavior);
   }

@@ -14,7 +14,7 @@
 #include "coverage/engine/goals.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/coordinator.h"
-#include "runtime/coordinator/explainer.h"
+#include "runtime/coordinator/problem_builder.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
 #include "runtime/solver/problem.h"
@@ -54,7 +54,11 @@ class GoalMonitor final : public RunListener {
   void begin(const State& state);
   void on_decision(const EventRecord& record, const Circumstances& circumstances,
                    const Assignment* solution) override;
-  void on_event(const EventRecord& record, const Step* step, const State& state) override;
+  void on_event(const ExplainedRecord& record, const Step* /*step*/, const State& state) override {
+    note_event(record, state);
+  }
+  /// The same, without a runner. `state`: after the event.
+  void note_event(const EventRecord& record, const State& state);
 
   /// Where there are no times: any failure may be a timeout.
   void take_failures_for_timeouts() { takes_failures_for_timeouts_ = true; }

@@ -32,7 +32,6 @@ constexpr Microseconds present_instant = second;
 CoordinatorOptions without_times() {
   CoordinatorOptions options;
   options.timeouts = false;
-  options.find_conflicts = false;
   return options;
 }
 
@@ -152,7 +151,7 @@ void StateReplay::on_decision(const EventRecord& record, const Circumstances& ci
 }
 
 void StateReplay::on_event(const EventRecord& record) {
-  monitor_.on_event(record, nullptr, coordinator_.state());
+  monitor_.note_event(record, coordinator_.state());
 }
 
 /// Finds timeouts before which another one always comes, from all moves between the reachable

@@ -19,7 +19,7 @@ class MissionSimulator::Simulation final : public RunListener {
       : catalog_(simulator.catalog_),
         monitor_(catalog_, simulator.goals_, options_for_monitor(simulator)),
         is_over_(simulator.is_over_),
-        runner_(catalog_, without_conflicts(script), *this) {
+        runner_(catalog_, options_of(script), *this) {
     result_.group = group;
     result_.script = std::move(script);
     runner_.begin(result_.script.situation);
@@ -96,17 +96,11 @@ class MissionSimulator::Simulation final : public RunListener {
     return options;
   }
 
-  static CoordinatorOptions without_conflicts(const Script& script) {
-    CoordinatorOptions options = options_of(script);
-    options.find_conflicts = false;
-    return options;
-  }
-
   void on_decision(const EventRecord& record, const Circumstances& circumstances,
                    const Assignment* solution) override {
     monitor_.on_decision(record, circumstances, solution);
   }
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override {
     monitor_.on_event(record, step, state);
     if (record.origin == Origin::script && form_of(record.verb).is_decided) {
       outcome_ = record.outcome;

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/report/table.h"
-#include "core/report/words.h"
 #include "core/support/wording.h"
+#include "core/words/words.h"
 #include "coverage/report/coverage_report.h"
 #include "explore/properties/explore.h"
 #include "page_files.h"

@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "core/report/layout.h"
 #include "core/report/table.h"
 #include "core/report/test_report.h"
-#include "core/report/words.h"
 #include "core/support/wording.h"
+#include "core/words/layout.h"
+#include "core/words/words.h"
 #include "coverage/engine/first_goals.h"
 #include "coverage/report/coverage_report.h"
 #include "runtime/base/text.h"

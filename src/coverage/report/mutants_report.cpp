@@ -7,12 +7,12 @@
 #include <fmt/format.h>
 
 #include "core/report/assumptions_json.h"
-#include "core/report/layout.h"
 #include "core/report/table.h"
 #include "core/report/test_report.h"
-#include "core/report/words.h"
 #include "core/support/json_description.h"
 #include "core/support/wording.h"
+#include "core/words/layout.h"
+#include "core/words/words.h"
 #include "coverage/report/coverage_report.h"
 #include "runtime/base/text.h"
 

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "ask/constraint_proof.h"
-#include "core/report/words.h"
 #include "core/support/system.h"
+#include "core/words/words.h"
 #include "runtime/base/text.h"
 
 namespace cbc {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/report/words.h"
 #include "core/support/json.h"
+#include "core/words/words.h"
 
 namespace cbc {
 namespace {
@@ -55,7 +55,8 @@ void StateRecorder::note_behaviors(const State& state) {
   }
 }
 
-void StateRecorder::on_event(const EventRecord& record, const Step* /*step*/, const State& state) {
+void StateRecorder::on_event(const ExplainedRecord& record, const Step* /*step*/,
+                             const State& state) {
   events_ = record.index;
   has_passed_ |= wanted_.time && record.time > *wanted_.time;
   if (has_passed_) return;

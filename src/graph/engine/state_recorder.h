@@ -25,7 +25,7 @@ class StateRecorder final : public RunListener {
   /// `catalog` must outlive this object.
   StateRecorder(const CompiledCatalog& catalog, const Script& script, const WantedState& wanted);
 
-  void on_event(const EventRecord& record, const Step* step, const State& state) override;
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override;
   void on_end(const State& state) override;
 
   /// Whether the run has reached the state. A run that reached its end has passed all times.

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/compile/catalog_json.h"
-#include "core/report/words.h"
 #include "core/support/json.h"
 #include "core/support/json_description.h"
+#include "core/words/words.h"
 #include "graph/engine/catalog_diff.h"
 #include "graph/engine/catalog_facts.h"
 #include "graph/report/graph_report.h"

@@ -15,11 +15,11 @@
 
 #include "core/compile/catalog_json.h"
 #include "core/report/pair_matrix.h"
-#include "core/report/reason_words.h"
 #include "core/report/table.h"
-#include "core/report/words.h"
 #include "core/support/json_description.h"
 #include "core/support/wording.h"
+#include "core/words/reason_words.h"
+#include "core/words/words.h"
 #include "graph/engine/diagram.h"
 #include "runtime/base/text.h"
 #include "runtime/coordinator/record.h"

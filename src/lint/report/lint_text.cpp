@@ -12,10 +12,10 @@
 #include <fmt/format.h>
 
 #include "core/diagnostic/diagnostic.h"
-#include "core/report/layout.h"
 #include "core/report/table.h"
 #include "core/report/test_report.h"
 #include "core/support/wording.h"
+#include "core/words/layout.h"
 #include "lint/report/lint_report.h"
 #include "runtime/base/text.h"
 

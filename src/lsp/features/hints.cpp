@@ -5,12 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include "core/report/failure_explanation.h"
-#include "core/report/layout.h"
-#include "core/report/reason_words.h"
 #include "core/script/reader.h"
 #include "core/script/runner.h"
 #include "core/support/wording.h"
+#include "core/words/failure_explanation.h"
+#include "core/words/layout.h"
+#include "core/words/reason_words.h"
 #include "core/yaml/source.h"
 #include "lsp/features/features.h"
 #include "runtime/base/text.h"
@@ -40,7 +40,7 @@ class HintedRun final : public RunListener {
     explanation_.begin_run(catalog, script);
   }
 
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override {
     explanation_.add(record, step, state);
     if (step != nullptr) present_ = &hints_[step->range.begin];
     if (present_ == nullptr) return;
@@ -110,9 +110,9 @@ Json list_hints(const Workspace& workspace, const File& file, std::size_t begin,
   CoordinatorOptions options;
   options.is_stopped = [deadline] { return Clock::now() >= deadline; };
   options.search.is_stopped = options.is_stopped;
-  options.last_decisions = true;
   HintedRun run(compiled, *script);
-  Runner runner(compiled, options_of(*script, options), run);
+  Runner runner(compiled, options_of(*script, options), run,
+                {.rejections = true, .failures = true});
   runner.begin(script->situation);
   for (const Step& step : script->steps) {
     if (options.is_stopped() || !runner.take(step)) break;

@@ -10,6 +10,7 @@
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/record.h"
+#include "why/explanation.h"
 
 // What Python passes, as the coordinator needs it. A wrong type raises TypeError, a name that the
 // catalog lacks UnknownName, and another wrong value UsageError.

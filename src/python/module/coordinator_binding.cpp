@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 
-#include "core/report/words.h"
 #include "core/script/state_json.h"
 #include "core/support/wording.h"
+#include "core/words/words.h"
 #include "python/module/arguments.h"
 #include "python/module/bindings.h"
 #include "python/module/errors.h"
@@ -47,8 +47,7 @@ std::shared_ptr<PythonEvent> handle(PythonCoordinator& coordinator, const py::ob
   return with_session(coordinator, [&](Session& session) {
     Call call;
     call.step = make_step(*session.catalog()->compiled);
-    call.time = read_time(at, session.coordinator().now());
-    call.step->time = call.time;
+    call.step.time = read_time(at, session.coordinator().now());
     return std::const_pointer_cast<PythonEvent>(make_event(run(session, std::move(call))));
   });
 }
@@ -122,7 +121,7 @@ std::shared_ptr<PythonEvent> change_situation(PythonCoordinator& coordinator,
 py::tuple advance(PythonCoordinator& coordinator, const py::object& to) {
   return with_session(coordinator, [&](Session& session) {
     if (to.is_none()) raise_type_error("to: expected seconds as a number, found None");
-    return make_events(run(session, {read_time(to, session.coordinator().now()), std::nullopt}));
+    return make_events(run(session, clock_call(*read_time(to, session.coordinator().now()))));
   });
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "core/report/words.h"
+#include "core/words/words.h"
 #include "python/module/bindings.h"
 #include "python/module/errors.h"
 #include "python/module/explanations.h"
@@ -21,7 +21,7 @@ struct PartOfEvent {
   EventHolder of;
   Part part;
 
-  [[nodiscard]] const Catalog& catalog() const { return *of->event.moment->catalog; }
+  [[nodiscard]] const Catalog& catalog() const { return *of->event.past->catalog; }
   bool operator==(const PartOfEvent& other) const;
 };
 using PythonChange = PartOfEvent<Change>;
@@ -130,7 +130,7 @@ py::tuple tuple_of(const std::vector<EventHolder>& events) {
 
 py::object subject_of(const PythonEvent& event) {
   const EventRecord& record = event.event.record;
-  const Catalog& catalog = *event.event.moment->catalog;
+  const Catalog& catalog = *event.event.past->catalog;
   if (record.behavior != none) return name_of_behavior(catalog, record.behavior);
   if (record.task == none || record.verb == Verb::finish) return py::none();
   return name_of_task(catalog, record.task);
@@ -138,9 +138,9 @@ py::object subject_of(const PythonEvent& event) {
 
 /// "start DELIVER, priority 2: accepted"
 std::string words_of_event(const PythonEvent& event) {
-  const Moment& moment = *event.event.moment;
+  const PastCall& past = *event.event.past;
   const EventRecord& record = event.event.record;
-  return event_and_outcome(*moment.catalog->compiled, record, moment.step_of(record));
+  return event_and_outcome(*past.catalog->compiled, record, past.step_of(record));
 }
 
 template <typename Answer>

@@ -1,13 +1,13 @@
 #include "python/module/explanations.h"
 
-#include <functional>
 #include <utility>
 #include <vector>
 
 #include "core/report/event_json.h"
-#include "core/report/explanation_words.h"
-#include "core/report/reason_words.h"
-#include "core/report/words.h"
+#include "core/script/repetition.h"
+#include "core/words/explanation_words.h"
+#include "core/words/reason_words.h"
+#include "core/words/words.h"
 #include "runtime/base/text.h"
 
 namespace cbc::python {
@@ -25,52 +25,26 @@ void add(std::string& text, const Sentences& sentences, std::string_view indent)
   }
 }
 
-/// Takes the events of a call that is repeated, with the state after each.
-class Repetition final : public EventListener {
- public:
-  using Take = std::function<void(const EventRecord& record, const Step* step, const State& state)>;
+/// Does the call once more, and takes one of its events.
+void repeat(const PastCall& past, std::uint64_t index, Questions questions,
+            const IsStopped& is_stopped, const TakeEvent& take) {
+  questions.rejections = true;
+  cbc::repeat(*past.catalog->compiled, to_internal(past.options, is_stopped), past.before,
+              past.call, questions,
+              [&](const ExplainedRecord& record, const Step* step, const State& state) {
+                if (record.index == index) take(record, step, state);
+              });
+}
 
-  Repetition(const Moment& moment, const ExplanationOptions& explain, const IsStopped& is_stopped,
-             Take take)
-      : moment_(moment), take_(std::move(take)) {
-    run(explain, is_stopped);
-  }
-
- private:
-  void run(const ExplanationOptions& explain, const IsStopped& is_stopped) {
-    CoordinatorOptions options = to_internal(moment_.options, is_stopped);
-    options.find_conflicts = true;
-    options.explain = explain;
-    Coordinator coordinator(*moment_.catalog->compiled, options, *this);
-    coordinator_ = &coordinator;
-    coordinator.resume(moment_.before);
-    (void)make_call(coordinator, moment_.call);  // it was ok the first time, or is stopped
-    coordinator_ = nullptr;
-  }
-
-  void on_event(const EventRecord& record) override {
-    take_(record, moment_.step_of(record), coordinator_->state());
-  }
-
-  const Moment& moment_;
-  const Take take_;
-  const Coordinator* coordinator_ = nullptr;
-};
-
-std::string describe_rejected(const CompiledCatalog& catalog, const EventRecord& record) {
+std::string describe_rejected(const CompiledCatalog& catalog, const ExplainedRecord& record) {
   std::string text;
   add(text, {place_of(catalog, record) + " was rejected:", describe_rejection(catalog, record)},
       "");
   return text;
 }
 
-void repeat(const HandledEvent& event, const IsStopped& is_stopped, const Repetition::Take& take) {
-  ExplanationOptions explain;
-  explain.displaced = true;
-  const Repetition repetition(*event.moment, explain, is_stopped,
-                              [&](const EventRecord& record, const Step* step, const State& state) {
-                                if (record.index == event.record.index) take(record, step, state);
-                              });
+void repeat(const HandledEvent& event, const IsStopped& is_stopped, const TakeEvent& take) {
+  repeat(*event.past, event.record.index, {.displaced = true}, is_stopped, take);
 }
 
 constexpr std::string_view no_reasons =
@@ -78,9 +52,9 @@ constexpr std::string_view no_reasons =
 
 }  // namespace
 
-Told tell(const Moment& moment, const EventRecord& record, const State& state) {
-  const CompiledCatalog& catalog = *moment.catalog->compiled;
-  const Step* const step = moment.step_of(record);
+Told tell(const PastCall& past, const ExplainedRecord& record, const State& state) {
+  const CompiledCatalog& catalog = *past.catalog->compiled;
+  const Step* const step = past.step_of(record);
   Told told;
   add(told.words, {event_and_outcome(catalog, record, step), {std::string(no_reasons)}}, "");
   append_event(told.json, catalog, record, step, state, {});
@@ -89,30 +63,32 @@ Told tell(const Moment& moment, const EventRecord& record, const State& state) {
 
 std::string explain_event(const HandledEvent& event, const IsStopped& is_stopped) {
   if (event.told != nullptr) return event.told->words;
-  const CompiledCatalog& catalog = *event.moment->catalog->compiled;
+  const CompiledCatalog& catalog = *event.past->catalog->compiled;
   std::string text;
-  repeat(event, is_stopped, [&](const EventRecord& record, const Step* step, const State& state) {
-    if (record.outcome == Outcome::rejected) {
-      text = describe_rejected(catalog, record);
-      return;
-    }
-    text = event_and_outcome(catalog, record, step);
-    const std::string note = describe_note(catalog, record, state);
-    if (!note.empty()) add(text, {note, {}}, "  ");
-    for (const Displacement& displaced : record.explanation.displaced) {
-      add(text, describe_displacement(catalog, record, displaced, state), "  ");
-    }
-  });
+  repeat(event, is_stopped,
+         [&](const ExplainedRecord& record, const Step* step, const State& state) {
+           if (record.outcome == Outcome::rejected) {
+             text = describe_rejected(catalog, record);
+             return;
+           }
+           text = event_and_outcome(catalog, record, step);
+           const std::string note = describe_note(catalog, record, state);
+           if (!note.empty()) add(text, {note, {}}, "  ");
+           for (const Displacement& displaced : record.explanation.displaced) {
+             add(text, describe_displacement(catalog, record, displaced, state), "  ");
+           }
+         });
   return text;
 }
 
 std::string event_to_json(const HandledEvent& event, const IsStopped& is_stopped) {
   if (event.told != nullptr) return event.told->json;
-  const CompiledCatalog& catalog = *event.moment->catalog->compiled;
+  const CompiledCatalog& catalog = *event.past->catalog->compiled;
   std::string text;
-  repeat(event, is_stopped, [&](const EventRecord& record, const Step* step, const State& state) {
-    append_event(text, catalog, record, step, state, {});
-  });
+  repeat(event, is_stopped,
+         [&](const ExplainedRecord& record, const Step* step, const State& state) {
+           append_event(text, catalog, record, step, state, {});
+         });
   return text;
 }
 
@@ -155,22 +131,19 @@ std::string explain_present(const Session& session, const Subject& subject,
     return explain_event(*rejection, is_stopped);
   }
   const Decision& decision = session.decision_of(group);
-  if (decision.moment == nullptr) return explain_undecided(session, task);
+  if (decision.past == nullptr) return explain_undecided(session, task);
   if (decision.told != nullptr) {
     return concat("at ", format_time(decision.time), " s, ", decision.told->words);
   }
-  ExplanationOptions explain;
-  explain.why = {subject};
   std::string text;
-  const Repetition repetition(*decision.moment, explain, is_stopped,
-                              [&](const EventRecord& record, const Step* step, const State& state) {
-                                if (record.index != decision.index) return;
-                                text = concat("at ", format_time(record.time), " s, ",
-                                              event_and_outcome(catalog, record, step));
-                                for (const Why& why : record.explanation.why) {
-                                  add(text, describe_why(catalog, record, why, state), "  ");
-                                }
-                              });
+  repeat(*decision.past, decision.index, {.why = {subject}}, is_stopped,
+         [&](const ExplainedRecord& record, const Step* step, const State& state) {
+           text = concat("at ", format_time(record.time), " s, ",
+                         event_and_outcome(catalog, record, step));
+           for (const Why& why : record.explanation.why) {
+             add(text, describe_why(catalog, record, why, state), "  ");
+           }
+         });
   return text;
 }
 

@@ -5,13 +5,13 @@
 #include "python/module/session.h"
 #include "runtime/coordinator/record.h"
 
-// Answers to questions about events that have happened, found by repeating them: see Moment. They
+// Answers to questions about events that have happened, found by repeating them: see PastCall. They
 // mean nothing once `is_stopped` has ended the repetition.
 
 namespace cbc::python {
 
 /// What can be said of an event while it happens. `state`: after it.
-[[nodiscard]] Told tell(const Moment& moment, const EventRecord& record, const State& state);
+[[nodiscard]] Told tell(const PastCall& past, const ExplainedRecord& record, const State& state);
 
 /// Why an event was rejected, or what it displaced and why, in the words of `cbc solve`. The first
 /// line says what happened; reasons follow, indented.

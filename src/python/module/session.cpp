@@ -3,7 +3,6 @@
 #include <chrono>
 #include <utility>
 
-#include "core/script/runner.h"
 #include "python/module/explanations.h"
 #include "runtime/base/text.h"
 
@@ -15,21 +14,9 @@ CoordinatorOptions to_internal(const SessionOptions& options, const IsStopped& i
   internal.timeouts = options.timeouts;
   internal.search.max_nodes = options.max_nodes;
   internal.search.time_limit = std::chrono::microseconds(options.time_limit);
-  internal.find_conflicts = false;  // whoever asks why finds them
   internal.is_stopped = is_stopped;
   internal.search.is_stopped = is_stopped;
   return internal;
-}
-
-Coordinator::Status make_call(Coordinator& coordinator, const Call& call) {
-  using Status = Coordinator::Status;
-  coordinator.restart_count();
-  if (call.time) {
-    if (const Status status = coordinator.advance_to(*call.time); status != Status::ok) {
-      return status;
-    }
-  }
-  return call.step ? coordinator.handle(event_of(*call.step)) : coordinator.settle();
 }
 
 Session::Session(std::shared_ptr<const Catalog> catalog, const SessionOptions& options)
@@ -37,7 +24,7 @@ Session::Session(std::shared_ptr<const Catalog> catalog, const SessionOptions& o
       options_(options),
       decisions_(catalog_->compiled->group_count()),
       rejections_(catalog_->compiled->group_count()) {
-  make_coordinator();
+  make_runner();
 }
 
 std::unique_ptr<Session> Session::clone() const {
@@ -48,58 +35,50 @@ std::unique_ptr<Session> Session::clone() const {
   return other;
 }
 
-void Session::make_coordinator() {
-  EventListener& listener = *this;  // nobody else may know that it is one
-  coordinator_.emplace(*catalog_->compiled,
-                       to_internal(options_,
-                                   [this] {
-                                     was_stopped_ = was_stopped_ ||
-                                                    (is_stopped_ != nullptr && (*is_stopped_)());
-                                     return was_stopped_;
-                                   }),
-                       listener);
+void Session::make_runner() {
+  RunListener& listener = *this;  // nobody else may know that it is one
+  runner_.emplace(*catalog_->compiled,
+                  to_internal(options_,
+                              [this] {
+                                was_stopped_ =
+                                    was_stopped_ || (is_stopped_ != nullptr && (*is_stopped_)());
+                                return was_stopped_;
+                              }),
+                  listener);
 }
 
-void Session::begin(const Situation& situation) {
-  coordinator_->begin(situation.availability, situation.variables);
-}
+void Session::begin(const Situation& situation) { runner_->begin(situation); }
 
 void Session::resume(const Snapshot& snapshot) {
   options_.reactive_delay = snapshot.reactive_delay;
   options_.timeouts = snapshot.timeouts;
-  make_coordinator();
-  coordinator_->resume(snapshot);
-  outcome_ = snapshot.outcome;
+  make_runner();
+  runner_->resume(snapshot);
   decisions_.assign(decisions_.size(), {});
   rejections_.assign(rejections_.size(), std::nullopt);
 }
 
-Snapshot Session::snapshot() const {
-  Snapshot snapshot = coordinator_->snapshot();
-  snapshot.outcome = outcome_;
-  return snapshot;
-}
-
 std::optional<std::vector<HandledEvent>> Session::run(Call call, const IsStopped& is_stopped) {
   using Status = Coordinator::Status;
-  moment_ = std::make_shared<const Moment>(Moment{catalog_, options_, snapshot(), std::move(call)});
+  past_ =
+      std::make_shared<const PastCall>(PastCall{catalog_, options_, snapshot(), std::move(call)});
   events_.clear();
   replaced_.clear();
   is_repeatable_ = true;
   is_stopped_ = &is_stopped;
   was_stopped_ = false;
-  Status status = Status::ok;
   try {
-    status = make_call(*coordinator_, moment_->call);
+    (void)make_call(*runner_, past_->call);
   } catch (...) {
-    go_back(*moment_);
+    go_back(past_->before);
     throw;
   }
   is_stopped_ = nullptr;
   if (was_stopped_) {
-    go_back(*moment_);
+    go_back(past_->before);
     return std::nullopt;
   }
+  const Status status = runner_->result().status;
   if (status == Status::ok) return std::move(events_);
   const std::string fault =
       status == Status::too_many_clock_events
@@ -108,17 +87,16 @@ std::optional<std::vector<HandledEvent>> Session::run(Call call, const IsStopped
           : concat(
                 "the checker rejects an answer of the solver, which is a bug in cbc; please "
                 "report it: ",
-                coordinator_->internal_error());
-  go_back(*moment_);
+                runner_->result().internal_error);
+  go_back(past_->before);
   throw CallFault(fault);
 }
 
-void Session::go_back(const Moment& moment) {
+void Session::go_back(const Snapshot& before) {
   is_stopped_ = nullptr;
   events_.clear();
-  make_coordinator();
-  coordinator_->resume(moment.before);
-  outcome_ = moment.before.outcome;
+  make_runner();
+  runner_->resume(before);
   for (; !replaced_.empty(); replaced_.pop_back()) {
     Replaced& replaced = replaced_.back();
     decisions_[replaced.group] = std::move(replaced.decision);
@@ -126,26 +104,25 @@ void Session::go_back(const Moment& moment) {
   }
 }
 
-void Session::on_event(const EventRecord& record) {
+void Session::on_event(const ExplainedRecord& record, const Step* /*step*/, const State& state) {
   HandledEvent& event = events_.emplace_back();
-  event.moment = moment_;
+  event.past = past_;
   event.record = record;
   event.record.search = nullptr;
   if (record.search != nullptr) event.is_proven = is_proven(record.search->result.status);
   is_repeatable_ = is_repeatable_ && (event.is_proven || options_.time_limit == 0);
   if (!is_repeatable_) {
-    event.told = std::make_shared<const Told>(tell(*moment_, record, coordinator_->state()));
+    event.told = std::make_shared<const Told>(tell(*past_, record, state));
   }
   if (record.search != nullptr) {
     const GroupId group = record.search->group;
     replaced_.push_back({group, decisions_[group], std::exchange(rejections_[group], {})});
     if (record.outcome == Outcome::accepted) {
-      decisions_[group] = {moment_, record.index, record.time, event.told};
+      decisions_[group] = {past_, record.index, record.time, event.told};
     } else {
       rejections_[group] = event;
     }
   }
-  if (record.origin == Origin::script && form_of(record.verb).is_decided) outcome_ = record.outcome;
 }
 
 }  // namespace cbc::python

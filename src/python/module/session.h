@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/script/repetition.h"
+#include "core/script/runner.h"
 #include "core/script/script.h"
 #include "python/module/catalog.h"
 #include "runtime/coordinator/coordinator.h"
@@ -18,12 +20,6 @@
 // A coordinator with what Python asks of it beyond events. Nothing here knows Python.
 
 namespace cbc::python {
-
-/// What a program asks of a coordinator at once: to move its clock, and then to take an event.
-struct Call {
-  std::optional<Microseconds> time;  ///< empty: now
-  std::optional<Step> step;          ///< empty: the clock alone, with all that is due at the time
-};
 
 /// The options of a coordinator, as far as Python has them.
 struct SessionOptions {
@@ -39,11 +35,8 @@ using IsStopped = std::function<bool()>;
 [[nodiscard]] CoordinatorOptions to_internal(const SessionOptions& options,
                                              const IsStopped& is_stopped = {});
 
-/// A call with the state before it. The coordinator does the same whenever it is asked from the
-/// same state, unless a limit of time ends a search, so all that anybody may ask later about an
-/// event can be found by doing it again. An event that nobody asks about costs no more than this
-/// copy.
-struct Moment {
+/// A call with the state before it, so that it can be repeated.
+struct PastCall {
   std::shared_ptr<const Catalog> catalog;
   SessionOptions options;
   Snapshot before;
@@ -51,7 +44,7 @@ struct Moment {
 
   /// What asked for an event of the call; null: the clock did.
   [[nodiscard]] const Step* step_of(const EventRecord& record) const {
-    return record.origin == Origin::script && call.step ? &*call.step : nullptr;
+    return record.origin == Origin::script && !call.is_clock ? &call.step : nullptr;
   }
 };
 
@@ -63,8 +56,8 @@ struct Told {
 
 /// What one event did.
 struct HandledEvent {
-  std::shared_ptr<const Moment> moment;  ///< of the call that it is a part of
-  EventRecord record;                    ///< without search and explanations
+  std::shared_ptr<const PastCall> past;  ///< that it is a part of
+  EventRecord record;                    ///< without its search
   bool is_proven = true;
   /// Not null: a limit of time ended a search of the call, so to repeat it may give another answer.
   std::shared_ptr<const Told> told = nullptr;
@@ -72,7 +65,7 @@ struct HandledEvent {
 
 /// Which event decided about a group.
 struct Decision {
-  std::shared_ptr<const Moment> moment;  ///< null: none
+  std::shared_ptr<const PastCall> past;  ///< null: none
   std::uint64_t index = 0;
   Microseconds time = 0;
   std::shared_ptr<const Told> told;
@@ -83,10 +76,7 @@ struct CallFault : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Does a call.
-[[nodiscard]] Coordinator::Status make_call(Coordinator& coordinator, const Call& call);
-
-class Session final : private EventListener {
+class Session final : private RunListener {
  public:
   Session(std::shared_ptr<const Catalog> catalog, const SessionOptions& options);
   Session(const Session&) = delete;
@@ -98,7 +88,7 @@ class Session final : private EventListener {
   void begin(const Situation& situation);
   /// Continues from a state that find_inconsistency accepts; `options` of what goes on are kept.
   void resume(const Snapshot& snapshot);
-  [[nodiscard]] Snapshot snapshot() const;
+  [[nodiscard]] Snapshot snapshot() const { return runner_->snapshot(); }
 
   /// What the call did, in order; nothing if `is_stopped` ended it. Throws a CallFault.
   [[nodiscard]] std::optional<std::vector<HandledEvent>> run(Call call,
@@ -113,25 +103,24 @@ class Session final : private EventListener {
 
   [[nodiscard]] const std::shared_ptr<const Catalog>& catalog() const { return catalog_; }
   [[nodiscard]] const SessionOptions& options() const { return options_; }
-  [[nodiscard]] const Coordinator& coordinator() const { return *coordinator_; }
-  [[nodiscard]] const State& state() const { return coordinator_->state(); }
+  [[nodiscard]] const Coordinator& coordinator() const { return runner_->coordinator(); }
+  [[nodiscard]] const State& state() const { return coordinator().state(); }
 
  private:
-  void on_event(const EventRecord& record) override;
-  void make_coordinator();
-  void go_back(const Moment& moment);
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override;
+  void make_runner();
+  void go_back(const Snapshot& before);
 
   const std::shared_ptr<const Catalog> catalog_;
   SessionOptions options_;
-  std::optional<Coordinator> coordinator_;
+  std::optional<Runner> runner_;
   const IsStopped* is_stopped_ = nullptr;  ///< of the present call
   bool was_stopped_ = false;
-  std::optional<Outcome> outcome_;                       ///< for a saved state
   std::vector<Decision> decisions_;                      ///< by group
   std::vector<std::optional<HandledEvent>> rejections_;  ///< by group
 
   // Of the present call.
-  std::shared_ptr<const Moment> moment_;
+  std::shared_ptr<const PastCall> past_;
   std::vector<HandledEvent> events_;
   bool is_repeatable_ = true;
   /// What the call has replaced, in order.

@@ -4,7 +4,7 @@
 
 #include "core/files/file_set.h"
 #include "core/property/properties.h"
-#include "core/report/words.h"
+#include "core/words/words.h"
 #include "python/module/bindings.h"
 #include "python/module/errors.h"
 #include "runtime/base/text.h"

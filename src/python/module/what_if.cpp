@@ -17,25 +17,20 @@ MoveChoice choice_in(const CompiledCatalog& catalog, const State& state,
   return choice;
 }
 
-std::shared_ptr<const Moment> moment_of(const Session& session, const Snapshot& before,
-                                        const PossibleMove::Event& first) {
-  Call call;
-  if (first.step != nullptr) {
-    call.step = *first.step;
-  } else {
-    call.time = first.record.time;
-  }
-  return std::make_shared<const Moment>(
-      Moment{session.catalog(), session.options(), before, std::move(call)});
+std::shared_ptr<const PastCall> past_call(const Session& session, const Snapshot& before,
+                                          const PossibleMove::Event& first) {
+  Call call = first.step == nullptr ? clock_call(first.record.time) : Call{*first.step};
+  return std::make_shared<const PastCall>(
+      PastCall{session.catalog(), session.options(), before, std::move(call)});
 }
 
 Option option_of(const Session& session, const Snapshot& before, const PossibleMove& move) {
   const CompiledCatalog& catalog = *session.catalog()->compiled;
   Option option;
   option.effects = effects_of(catalog, move);
-  const auto moment = moment_of(session, before, move.events.front());
+  const auto past = past_call(session, before, move.events.front());
   for (const PossibleMove::Event& event : move.events) {
-    HandledEvent& handled = option.events.emplace_back(HandledEvent{moment, event.record, true});
+    HandledEvent& handled = option.events.emplace_back(HandledEvent{past, event.record, true});
     handled.record.search = nullptr;
     if (event.search != nullptr) handled.is_proven = is_proven(event.search->result.status);
   }

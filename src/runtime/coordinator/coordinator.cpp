@@ -16,7 +16,6 @@
 #include <functional>
 
 #include "runtime/base/text.h"
-#include "runtime/coordinator/explainer.h"
 #include "runtime/coordinator/problem_builder.h"
 
 namespace cbc {
@@ -32,9 +31,7 @@ Coordinator::Coordinator(const CompiledCatalog& catalog, const CoordinatorOption
       problem_builder_(catalog, state_),
       transition_(catalog, state_, record_),
       solver_(catalog, options.search, ranks_),
-      checker_(catalog) {
-  if (options.last_decisions) last_decisions_.emplace(catalog, ranks_, state_);
-}
+      checker_(catalog) {}
 
 void Coordinator::begin(std::span<const Availability> situation,
                         std::span<const VariableValue> variables) {
@@ -216,8 +213,6 @@ void Coordinator::open_record(Origin origin, Verb verb) {
   record_.tasks_taken_over.clear();
   record_.objective.reset();
   record_.search = nullptr;
-  record_.conflict.clear();
-  record_.explanation.clear();
   record_.index = index;
   record_.time = now_;
   record_.origin = origin;
@@ -247,7 +242,7 @@ Coordinator::Status Coordinator::start(TaskId task, std::int32_t priority,
   trigger.time = now_;
   trigger.is_reactive = is_reactive;
   if (request != nullptr && request->priority > priority) {
-    return reject_by_priority(trigger, request->priority);
+    return reject_by_priority(trigger);
   }
   if (parameters) {
     trigger.parameters = *parameters;
@@ -272,19 +267,15 @@ Coordinator::Status Coordinator::stop(TaskId task, std::optional<std::int32_t> p
   trigger.task = task;
   trigger.priority = record_.priority;
   if (request != nullptr && request->priority > record_.priority) {
-    return reject_by_priority(trigger, request->priority);
+    return reject_by_priority(trigger);
   }
   return coordinate(trigger);
 }
 
 /// The task's own request has a higher priority than the event.
-Coordinator::Status Coordinator::reject_by_priority(const Trigger& trigger, std::int32_t priority) {
+Coordinator::Status Coordinator::reject_by_priority(const Trigger& trigger) {
   record_.outcome = Outcome::rejected;
-  Reason& reason = record_.conflict.emplace_back();
-  reason.kind = Reason::Kind::priority;
-  reason.task = trigger.task;
-  reason.priority = priority;
-  if (last_decisions_) last_decisions_->note_rejection(record_, trigger);
+  listener_.on_decision(record_, {state_, trigger, record_.priority, {}}, nullptr);
   return report();
 }
 
@@ -348,15 +339,8 @@ Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
     }
     const auto failed = transition_.apply(solution_, behavior_to_restart(trigger), now_);
     if (!failed) {
-      explain(trigger, *problem);
-      if (last_decisions_) {
-        last_decisions_->note_answer(record_, circumstances_of(trigger), solution_);
-      }
-      listener_.on_decision(record_, circumstances_of(trigger), &solution_);
+      listener_.on_decision(record_, circumstances_of(trigger, problem), &solution_);
       accept(trigger, *problem);
-      if (!record_.explanation.why.empty()) {
-        explainer_->explain_queued(state_, record_.explanation);
-      }
       return report();
     }
     problem_builder_.exclude(*failed);
@@ -499,36 +483,18 @@ void Coordinator::accept(const Trigger& trigger, const Problem& problem) {
   if (state_.waiting_count() > 0) retry_waiting(trigger.group);
 }
 
-/// Explains the solution as far as the options ask for it. Creates the explainer only if there is
-/// something to explain, since it takes memory.
-void Coordinator::explain(const Trigger& trigger, const Problem& problem) {
-  if (!options_.explain.asks_for_any() || search_.result.status != SearchStatus::optimal) return;
-  const bool is_only_of_displaced =
-      options_.explain.why.empty() && options_.explain.alternatives == 0;
-  const auto is_displaced = [&](LocalTask task) { return solution_[task] == none; };
-  if (is_only_of_displaced &&
-      std::none_of(problem.requests.begin(), problem.requests.end(), is_displaced)) {
-    return;
-  }
-  if (!explainer_) explainer_.emplace(catalog_, ranks_, options_.explain);
-  explainer_->explain(circumstances_of(trigger), problem, solution_, record_.explanation);
-}
-
 /// Of the event, while the state is still the one before it.
-Circumstances Coordinator::circumstances_of(const Trigger& trigger) const {
-  return {state_, trigger, search_.protection, problem_builder_.excluded(), solver_.deadline()};
+Circumstances Coordinator::circumstances_of(const Trigger& trigger, const Problem* problem) const {
+  return {state_,  trigger,           search_.protection, problem_builder_.excluded(),
+          problem, solver_.deadline()};
 }
 
 /// Rolls back. Behaviors that cannot be activated again are lost. A finish always has an answer:
 /// where nothing is protected, all tasks may stop.
 Coordinator::Status Coordinator::reject(const Trigger& trigger) {
   record_.outcome = Outcome::rejected;
-  if (options_.find_conflicts && search_.result.status == SearchStatus::infeasible) {
-    record_.conflict = find_conflict(catalog_, circumstances_of(trigger));
-  }
   const bool is_silent = note_waiting(trigger);
-  if (!is_silent) listener_.on_decision(record_, circumstances_of(trigger), nullptr);
-  if (last_decisions_ && !is_silent) last_decisions_->note_rejection(record_, trigger);
+  if (!is_silent) listener_.on_decision(record_, circumstances_of(trigger, nullptr), nullptr);
   // In reverse, as the last one finishes next.
   const std::vector<BehaviorId>& lost = transition_.roll_back(now_);
   lost_.insert(lost_.end(), lost.rbegin(), lost.rend());

@@ -11,8 +11,6 @@
 #include "cbc/event.h"
 #include "cbc/units.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "runtime/coordinator/explainer.h"
-#include "runtime/coordinator/last_decisions.h"
 #include "runtime/coordinator/problem_builder.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
@@ -27,9 +25,6 @@ struct CoordinatorOptions {
   Microseconds reactive_delay = 80'000;        ///< over 0; see docs/semantics.md, "Reactive tasks"
   bool timeouts = true;                        ///< false: the clock ends no behavior
   std::uint64_t max_clock_events = 1'000'000;  ///< timeouts and reactive starts, no-ops too
-  bool find_conflicts = true;                  ///< of rejected events
-  ExplanationOptions explain;                  ///< what to explain of accepted events
-  bool last_decisions = false;                 ///< why_unmet() may be called
   bool measure_time = false;                   ///< records the time of searches
   /// Orders behaviors of equal suitability at random instead of in catalog order.
   std::optional<std::uint64_t> tie_seed;
@@ -45,8 +40,7 @@ class EventListener {
   /// A problem was searched. An event that escalates, or in which a behavior fails, has several.
   /// `solution`: null if none was found. Both are valid until the next search.
   virtual void on_search(const Problem& /*problem*/, const Assignment* /*solution*/) {}
-  /// An answer was found, or that there is none (null), of which on_event will tell. The state is
-  /// still the one before the answer, but for what is active.
+  /// An answer was found, or that there is none (null), of which on_event will tell.
   virtual void on_decision(const EventRecord& /*record*/, const Circumstances& /*circumstances*/,
                            const Assignment* /*solution*/) {}
 };
@@ -58,8 +52,7 @@ class EventListener {
 /// instant is done, and the next call goes on. After refused_answer the coordinator must not
 /// be used any more.
 ///
-/// Once the buffers have grown to what the events need, an event allocates nothing, except for
-/// reasons and explanations.
+/// Once the buffers have grown to what the events need, an event allocates nothing.
 class Coordinator {
  public:
   enum class [[nodiscard]] Status : std::uint8_t{
@@ -101,12 +94,6 @@ class Coordinator {
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] const std::string& internal_error() const { return internal_error_; }
 
-  /// Why the present values of the tasks of a group meet the demands of none of the `ways`. Only
-  /// if the options say `last_decisions`.
-  [[nodiscard]] WhyUnmet why_unmet(GroupId group, std::span<const Demands> ways) {
-    return last_decisions_->why_unmet(group, ways);
-  }
-
  private:
   Status process_next_due();
   Status time_out(TaskId task);
@@ -121,7 +108,7 @@ class Coordinator {
   Status start(TaskId task, std::int32_t priority, std::optional<std::string_view> parameters,
                bool is_reactive);
   Status stop(TaskId task, std::optional<std::int32_t> priority);
-  Status reject_by_priority(const Trigger& trigger, std::int32_t priority);
+  Status reject_by_priority(const Trigger& trigger);
   Status finish(BehaviorId behavior, FinishCause cause);
   Status change_situation(const Event& event);
   void find_affected(const Event& event);
@@ -135,8 +122,8 @@ class Coordinator {
   void note_domain_sizes(const Problem& problem);
   [[nodiscard]] BehaviorId behavior_to_restart(const Trigger& trigger) const;
   void accept(const Trigger& trigger, const Problem& problem);
-  void explain(const Trigger& trigger, const Problem& problem);
-  [[nodiscard]] Circumstances circumstances_of(const Trigger& trigger) const;
+  [[nodiscard]] Circumstances circumstances_of(const Trigger& trigger,
+                                               const Problem* problem) const;
   Status reject(const Trigger& trigger);
   bool note_waiting(const Trigger& trigger);
   [[nodiscard]] bool was_active(BehaviorId behavior) const;
@@ -160,8 +147,6 @@ class Coordinator {
   Transition transition_;
   Solver solver_;
   Checker checker_;
-  std::optional<Explainer> explainer_;
-  std::optional<LastDecisions> last_decisions_;
   Assignment solution_;
   std::vector<TaskId> started_;
   std::vector<TaskId> stopped_by_others_;  ///< not by their own stop or end: see update_queue

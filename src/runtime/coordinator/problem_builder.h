@@ -1,7 +1,9 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -24,6 +26,18 @@ struct Trigger {
   Microseconds time = 0;        ///< of start: that of the request
   bool is_reactive = false;     ///< a start that may not stop a task with a request
   std::string_view parameters;  ///< that the task will have
+};
+
+/// What was decided, while the state is still the one before the answer, but for what is active.
+struct Circumstances {
+  const State& state;
+  const Trigger& trigger;
+  std::int32_t protection = 0;         ///< the last level that was tried
+  std::span<const BehaviorId> failed;  ///< behaviors that failed in this event
+  /// The one that has the answer; null: there is no answer.
+  const Problem* problem = nullptr;
+  /// When the event is to be done.
+  std::optional<std::chrono::steady_clock::time_point> deadline = std::nullopt;
 };
 
 /// Whether a running task may not stop: its request has a higher priority than the protection level

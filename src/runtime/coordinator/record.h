@@ -13,12 +13,11 @@
 #include "cbc/event.h"
 #include "cbc/units.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "runtime/explain/alternatives.h"
-#include "runtime/explain/reasons.h"
 #include "runtime/solver/problem.h"
 
-// The vocabulary of events, and the records of what they did. The words of scripts, streams, logs,
-// saved states and reports are in `verb_forms` and in the tables of record.cpp, and nowhere else.
+// The vocabulary of events, and the records of what they did, but not why (src/why). The words of
+// scripts, streams, logs, saved states and reports are in `verb_forms` and in the tables of
+// record.cpp, and nowhere else.
 
 namespace cbc {
 
@@ -96,82 +95,14 @@ template <typename Enum>
   return static_cast<Enum>(found - words.begin());
 }
 
-/// A task or a behavior, by its catalog index.
-struct Subject {
-  bool is_task = true;
-  std::uint32_t catalog_index = 0;
-};
-
-/// What to explain of accepted events. Only answers that are proven optimal are explained.
-struct ExplanationOptions {
-  bool displaced = false;          ///< why requested tasks do not run any more
-  std::vector<Subject> why;        ///< why these have the value they have
-  std::uint32_t alternatives = 0;  ///< number of best configurations to list
-
-  [[nodiscard]] bool asks_for_any() const { return displaced || !why.empty() || alternatives > 0; }
-};
-
-/// A request among others.
-struct RankedRequest {
-  std::int32_t priority = 0;
-  std::optional<Microseconds> time;  ///< of the event that last set it, if it is known
-};
-
-/// Why something was not chosen: the best alternative with it is worse, or there is none.
-struct WhyNot {
-  bool is_cut = false;  ///< a limit of effort came first, and the rest is empty
-  std::optional<Configuration> alternative;
-  Difference difference;  ///< between the choice and the alternative, if there is one
-  // Where the order of requests decides: those of the two tasks of the difference.
-  RankedRequest request;
-  RankedRequest other_request;
-  /// If there is none, a minimal conflict set. Empty: the event alone rules it out.
-  std::vector<Reason> conflict;
-};
-
-/// A task with an active request that does not run any more.
-struct Displacement {
-  TaskId task = none;
-  WhyNot why_not;
-};
-
-/// A behavior that suits a task better than the one it has, and why it was not chosen.
-struct BetterBehavior {
-  TaskId task = none;
-  std::uint32_t value_index = none;
-  WhyNot why_not;
-};
-
-/// Why a task has its value, or why a behavior is active or inactive.
-struct Why {
-  TaskId task = none;
-  BehaviorId behavior = none;  ///< set if the question is about a behavior
-  BehaviorId chosen = none;    ///< of the task, if the question is about a task
-  bool is_active = false;      ///< of the behavior
-  /// Of a reactive task in the queue after the event, or its behavior: when it is due. The rest
-  /// then says what would hinder its start now: `why_not` has no alternative, and a conflict set if
-  /// something would.
-  std::optional<Microseconds> due;
-  TaskId queued_task = none;  ///< the task, or that of the behavior, which is due
-  WhyNot why_not;
-  /// Of a running task, or of those of an active behavior: all better ones, the best first.
-  std::vector<BetterBehavior> better;
-};
-
-/// The explanations of one event.
-struct Explanation {
-  std::vector<Displacement> displaced;
-  std::vector<Why> why;
-  std::vector<Configuration> alternatives;  ///< the best first: the one that was chosen
-  bool is_list_cut = false;                 ///< a limit of effort came before the last of them
-  Configuration chosen;                     ///< set if there are displaced or why
-
-  void clear() {
-    displaced.clear();
-    why.clear();
-    alternatives.clear();
-    is_list_cut = false;
-  }
+/// The objectives of a solution but for f2, over the whole catalog (docs/semantics.md,
+/// "Objectives"). Idle tasks are those that can start without a request.
+struct ObjectiveValues {
+  std::uint32_t satisfied = 0;     ///< requests, for f1
+  std::uint32_t requests = 0;      ///< active requests, for f1
+  std::uint32_t idle_total = 0;    ///< idle tasks, for f3
+  std::uint32_t idle_running = 0;  ///< idle tasks that run, for f3
+  std::uint32_t changes = 0;       ///< for f4
 };
 
 [[nodiscard]] std::string_view name_of(SearchStatus status);
@@ -225,8 +156,6 @@ struct EventRecord {
   std::vector<TaskId> tasks_taken_over;
   std::optional<ObjectiveValues> objective;
   const SearchRecord* search = nullptr;  ///< null: there was none
-  std::vector<Reason> conflict;          ///< of a rejected event: a minimal conflict set
-  Explanation explanation;               ///< of an accepted event
 
   /// The tasks that one of the changes is about.
   [[nodiscard]] std::span<const TaskId> tasks_of(const Change& change) const {

@@ -255,7 +255,6 @@ CoordinatorOptions to_internal(const LiveOptions& options) {
   internal.search.time_limit =
       std::chrono::microseconds(std::clamp<Microseconds>(options.time_limit, 0, longest_time));
   internal.max_clock_events = LiveCoordinator::most_events;
-  internal.find_conflicts = false;
   return internal;
 }
 

@@ -12,7 +12,7 @@
 
 namespace cbc {
 
-KeptEvent::KeptEvent(const EventRecord& of, const Step* its_step) : record(of), step(its_step) {
+KeptEvent::KeptEvent(const ExplainedRecord& of, const Step* its_step) : record(of), step(its_step) {
   if (of.search == nullptr) return;
   search = std::make_unique<const SearchRecord>(*of.search);
   record.search = search.get();
@@ -27,7 +27,7 @@ class MomentKeeper final : public RunListener {
 
   void watch(const Runner& runner) { runner_ = &runner; }
 
-  void on_event(const EventRecord& record, const Step* step, const State& /*state*/) override {
+  void on_event(const ExplainedRecord& record, const Step* step, const State& /*state*/) override {
     const bool is_part = moment_ && moment_->event && follows_at_once(record) &&
                          moment_->event->record.index + 1 == record.index;
     if (!wanted_) {
@@ -62,7 +62,7 @@ MomentSearch find_moment(const CompiledCatalog& catalog, const Script& script,
   CoordinatorOptions until_moment = options_of(script, options);
   // The answer is there: what the clock brings later need not be waited for.
   until_moment.is_stopped = [&keeper] { return keeper.has_moment(); };
-  Runner runner(catalog, until_moment, keeper);
+  Runner runner(catalog, until_moment, keeper, {.rejections = true});
   keeper.watch(runner);
   runner.begin(script.situation);
   bool goes_on = true;
@@ -224,7 +224,9 @@ namespace {
 /// Makes moves of events: each with those that follow from it at once.
 class MoveRecorder final : public EventListener {
  public:
-  explicit MoveRecorder(const TakeMove& take) : take_(take) {}
+  MoveRecorder(const CompiledCatalog& catalog, const CoordinatorOptions& options,
+               const TakeMove& take)
+      : take_(take), inquiry_(catalog, options, {.rejections = true}) {}
 
   /// The next events happen from here on. `step`: the scripted one, or null.
   void begin(const Coordinator& coordinator, const Step* step) {
@@ -234,10 +236,15 @@ class MoveRecorder final : public EventListener {
     before_.emplace(coordinator.state());
   }
 
+  void on_decision(const EventRecord& record, const Circumstances& circumstances,
+                   const Assignment* solution) override {
+    inquiry_.on_decision(record, circumstances, solution);
+  }
   void on_event(const EventRecord& record) override {
     if (!follows_at_once(record)) end();
-    events_.emplace_back(record, record.origin == Origin::script ? step_ : nullptr,
-                         coordinator_->state());
+    const State& state = coordinator_->state();
+    events_.emplace_back(inquiry_.on_event(record, state),
+                         record.origin == Origin::script ? step_ : nullptr, state);
     ++count_;
   }
 
@@ -254,6 +261,7 @@ class MoveRecorder final : public EventListener {
 
  private:
   const TakeMove& take_;
+  Inquiry inquiry_;
   const Coordinator* coordinator_ = nullptr;
   const Step* step_ = nullptr;
   std::size_t count_ = 0;
@@ -266,7 +274,7 @@ class MoveRecorder final : public EventListener {
 RunResult try_moves(const CompiledCatalog& catalog, const CoordinatorOptions& options,
                     const Snapshot& snapshot, std::span<const Step> steps, const TakeMove& take) {
   using Status = Coordinator::Status;
-  MoveRecorder recorder(take);
+  MoveRecorder recorder(catalog, options, take);
   Coordinator coordinator(catalog, options, recorder);
   Status status = Status::ok;
   for (const Step& step : steps) {

@@ -21,11 +21,11 @@ namespace cbc {
 
 /// An event that outlives its coordinator.
 struct KeptEvent {
-  EventRecord record;
+  ExplainedRecord record;
   std::unique_ptr<const SearchRecord> search;  ///< that of the record, if it has one
   const Step* step = nullptr;                  ///< the scripted one, or null
 
-  KeptEvent(const EventRecord& of, const Step* its_step);
+  KeptEvent(const ExplainedRecord& of, const Step* its_step);
 };
 
 /// Whether an event of origin `fault` or `situation` belongs to the one before it: nothing can
@@ -77,7 +77,7 @@ struct PossibleMove {
   struct Event : KeptEvent {
     State after;
 
-    Event(const EventRecord& of, const Step* its_step, State its_after)
+    Event(const ExplainedRecord& of, const Step* its_step, State its_after)
         : KeptEvent(of, its_step), after(std::move(its_after)) {}
   };
 

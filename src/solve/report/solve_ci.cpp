@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "core/report/failure_explanation.h"
 #include "core/report/run_json.h"
 #include "core/report/run_report.h"
 #include "core/report/run_text.h"
 #include "core/report/test_report.h"
-#include "core/report/words.h"
 #include "core/support/wording.h"
+#include "core/words/failure_explanation.h"
+#include "core/words/words.h"
 #include "solve/report/solve_report.h"
 
 namespace cbc {
@@ -39,7 +39,7 @@ class RunTests final : public SolveReport {
     }
   }
 
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override {
     explanation_.add(record, step, state);
   }
 

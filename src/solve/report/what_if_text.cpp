@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "core/report/layout.h"
-#include "core/report/reason_words.h"
 #include "core/report/table.h"
-#include "core/report/words.h"
 #include "core/support/wording.h"
+#include "core/words/layout.h"
+#include "core/words/reason_words.h"
+#include "core/words/words.h"
 #include "runtime/base/text.h"
 #include "solve/report/what_if_report.h"
 
@@ -51,7 +51,7 @@ std::string name_of_move(const CompiledCatalog& catalog, const KeptEvent& event)
 }
 
 /// The first reasons of a rejection, which are those that the others lead to.
-std::string short_reason(const CompiledCatalog& catalog, const EventRecord& record) {
+std::string short_reason(const CompiledCatalog& catalog, const ExplainedRecord& record) {
   constexpr std::size_t most = 3;
   std::vector<std::string> reasons = describe_rejection(catalog, record);
   const std::size_t count = reasons.size();
@@ -72,7 +72,7 @@ bool is_cut(const PossibleMove& move) {
 std::string describe_effect(const CompiledCatalog& catalog, const PossibleMove& move) {
   std::vector<std::string> parts;
   const State& after = move.after();
-  const EventRecord& record = move.events.front().record;
+  const ExplainedRecord& record = move.events.front().record;
   const bool is_rejected = record.outcome == Outcome::rejected;
   if (is_rejected) parts.push_back(short_reason(catalog, record));
   if (is_cut(move)) parts.emplace_back("not proven best, as a search limit was reached");

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/script/runner.h"
+#include "why/inquiry.h"
 
 namespace cbc {
 
@@ -86,7 +87,7 @@ std::string_view name_of(SweepKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-void SweepCounts::add(const CompiledCatalog& catalog, const EventRecord& record) {
+void SweepCounts::add(const CompiledCatalog& catalog, const ExplainedRecord& record) {
   const SweepKind kind = kind_of(record);
   count_outcome(events[static_cast<std::size_t>(kind)], record);
   if (kind == SweepKind::start) {
@@ -137,9 +138,11 @@ namespace {
 class Sequence final : public EventListener {
  public:
   Sequence(const CompiledCatalog& catalog, const DrawnNames& names, const SweepSettings& settings,
-           std::uint64_t sequence, SequenceListener& listener)
+           std::uint64_t sequence, SequenceListener& listener, bool explains_rejections)
       : shape_(settings.shape),
         listener_(listener),
+        inquiry_(catalog, coordinator_options(settings.search),
+                 {.rejections = explains_rejections}),
         generator_(catalog, names, settings.shape, settings.seed, sequence),
         coordinator_(catalog, coordinator_options(settings.search), *this) {}
 
@@ -149,8 +152,12 @@ class Sequence final : public EventListener {
     return {status, coordinator_.internal_error()};
   }
 
+  void on_decision(const EventRecord& record, const Circumstances& circumstances,
+                   const Assignment* solution) override {
+    inquiry_.on_decision(record, circumstances, solution);
+  }
   void on_event(const EventRecord& record) override {
-    listener_.on_event(record, coordinator_.state());
+    listener_.on_event(inquiry_.on_event(record, coordinator_.state()), coordinator_.state());
   }
 
  private:
@@ -179,6 +186,7 @@ class Sequence final : public EventListener {
 
   const SweepShape shape_;
   SequenceListener& listener_;
+  Inquiry inquiry_;
   EventGenerator generator_;
   Coordinator coordinator_;
 };
@@ -187,7 +195,7 @@ class Sequence final : public EventListener {
 class StepCounter final : public SequenceListener {
  public:
   StepCounter(const std::vector<Step>& steps, std::uint64_t index) : steps_(steps), index_(index) {}
-  void on_event(const EventRecord& record, const State& /*state*/) override {
+  void on_event(const ExplainedRecord& record, const State& /*state*/) override {
     if (record.index == index_) count_ = steps_.size();
   }
   [[nodiscard]] std::size_t count() const { return count_ == 0 ? steps_.size() : count_; }
@@ -203,7 +211,7 @@ class StepCounter final : public SequenceListener {
 SequenceEnd run_sequence(const CompiledCatalog& catalog, const DrawnNames& names,
                          const SweepSettings& settings, std::uint64_t sequence,
                          SequenceListener& listener) {
-  return Sequence(catalog, names, settings, sequence, listener).run(nullptr);
+  return Sequence(catalog, names, settings, sequence, listener, true).run(nullptr);
 }
 
 std::vector<Step> steps_of_sequence(const CompiledCatalog& catalog, const DrawnNames& names,
@@ -211,7 +219,7 @@ std::vector<Step> steps_of_sequence(const CompiledCatalog& catalog, const DrawnN
                                     std::uint64_t index) {
   std::vector<Step> steps;
   StepCounter counter(steps, index);
-  static_cast<void>(Sequence(catalog, names, settings, sequence, counter).run(&steps));
+  static_cast<void>(Sequence(catalog, names, settings, sequence, counter, false).run(&steps));
   steps.resize(counter.count());
   return steps;
 }

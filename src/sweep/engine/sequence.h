@@ -10,13 +10,14 @@
 #include <string_view>
 #include <vector>
 
+#include "ask/conflict/reasons.h"
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
-#include "runtime/explain/reasons.h"
 #include "sweep/engine/draw.h"
+#include "why/explanation.h"
 
 namespace cbc {
 
@@ -54,7 +55,7 @@ struct SweepSettings {
 class SequenceListener {
  public:
   virtual ~SequenceListener() = default;
-  virtual void on_event(const EventRecord& record, const State& state) = 0;
+  virtual void on_event(const ExplainedRecord& record, const State& state) = 0;
   /// Before the next step, after all that was due before this time.
   virtual void on_time(Microseconds /*time*/, const State& /*state*/) {}
   /// After the step was handled.
@@ -183,7 +184,7 @@ struct SweepCounts {
   std::map<RejectionReason, std::uint64_t> reasons;
 
   /// Counts an event, except for the runs of tasks.
-  void add(const CompiledCatalog& catalog, const EventRecord& record);
+  void add(const CompiledCatalog& catalog, const ExplainedRecord& record);
   /// `other` is of the same catalog.
   void add(const SweepCounts& other);
 };

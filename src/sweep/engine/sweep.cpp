@@ -201,7 +201,7 @@ class Tally final : public SequenceListener {
     comparison_->on_step(step, state);
     event_began_ = Clock::now();
   }
-  void on_event(const EventRecord& record, const State& state) override {
+  void on_event(const ExplainedRecord& record, const State& state) override {
     if (comparison_ != nullptr) comparison_->on_new_event(record);
     if (record.search != nullptr) add_costs(record, Clock::now() - event_began_);
     totals_.counts.add(catalog_, record);

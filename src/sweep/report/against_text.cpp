@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "core/report/layout.h"
 #include "core/report/table.h"
 #include "core/support/wording.h"
+#include "core/words/layout.h"
 #include "runtime/base/text.h"
 #include "sweep/engine/against.h"
 #include "sweep/report/sweep_report.h"

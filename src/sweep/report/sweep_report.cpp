@@ -9,10 +9,11 @@
 
 #include <fmt/format.h>
 
-#include "core/report/layout.h"
 #include "core/report/search_stats.h"
 #include "core/report/table.h"
 #include "core/support/wording.h"
+#include "core/words/layout.h"
+#include "core/words/reason_words.h"
 #include "runtime/base/text.h"
 #include "sweep/engine/sweep.h"
 
@@ -38,35 +39,9 @@ std::string rejected_because(const SweepResult& result, const RejectionReason& r
   const auto name_in = [](const std::vector<std::string>& names, std::uint32_t place) {
     return place == none ? std::string() : printable(names[place]);
   };
-  const std::string task = name_in(result.task_names, reason.task);
-  const std::string behavior = name_in(result.behavior_names, reason.behavior);
-  switch (reason.kind) {
-    case Reason::Kind::priority:
-      return task + " has its own request of higher priority";
-    case Reason::Kind::no_behavior:
-      return "no behavior performs " + task;
-    case Reason::Kind::is_protected:
-      return task + " is protected by its request";
-    case Reason::Kind::exclusive:
-      return task + " excludes " + name_in(result.task_names, reason.other_task);
-    case Reason::Kind::on_request:
-      return task + " starts only on request, and is not requested";
-    case Reason::Kind::requires_task:
-      return behavior + " requires " + task;
-    case Reason::Kind::performance:
-      return fmt::format("{} requires a minimum performance of {}",
-                         behavior.empty() ? "the catalog" : behavior, task);
-    case Reason::Kind::unavailable:
-      return behavior + " is unavailable";
-    case Reason::Kind::situation:
-      return behavior + " does not fit the situation";
-    case Reason::Kind::faulty:
-      return behavior + " is faulty";
-    case Reason::Kind::finished:
-    case Reason::Kind::stopped:
-      break;  // not reasons of rejections
-  }
-  return {};
+  return describe_kind(reason.kind, name_in(result.behavior_names, reason.behavior),
+                       name_in(result.task_names, reason.task),
+                       name_in(result.task_names, reason.other_task));
 }
 
 /// Whether a reason is a requirement of the catalog. These take part in most rejections, whatever

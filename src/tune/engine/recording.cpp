@@ -22,7 +22,7 @@ class Recorder final : public RunListener {
   void on_search(const Problem& problem, const Assignment* solution) override {
     decisions_.add(problem, solution);
   }
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override {
     if (step != nullptr) line_ = step->range.begin.line;
     RecordedEvent& event = recording_.events.back().emplace_back(RecordedEvent{record, line_, {}});
     event.record.search = nullptr;
@@ -64,7 +64,6 @@ Recording record(CompiledCatalog catalog, const Missions& missions, Until until)
   for (const Script* const mission : missions) {
     recorder.begin_mission();
     CoordinatorOptions options = options_of(*mission);
-    options.find_conflicts = false;
     options.max_clock_events = most_clock_events;
     Runner runner(recording.catalog, options, recorder);
     runner.begin(mission->situation);

@@ -1,6 +1,6 @@
 #include "core/compile/catalog_json.h"
-#include "core/report/words.h"
 #include "core/support/json_description.h"
+#include "core/words/words.h"
 #include "runtime/base/text.h"
 #include "tune/report/tune_report.h"
 

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "core/report/layout.h"
 #include "core/report/table.h"
 #include "core/report/test_report.h"
-#include "core/report/words.h"
 #include "core/support/wording.h"
+#include "core/words/layout.h"
+#include "core/words/words.h"
 #include "runtime/base/text.h"
 #include "tune/report/tune_report.h"
 

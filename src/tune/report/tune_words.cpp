@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "core/report/explanation_words.h"
-#include "core/report/move_words.h"
-#include "core/report/words.h"
 #include "core/support/wording.h"
+#include "core/words/explanation_words.h"
+#include "core/words/move_words.h"
+#include "core/words/words.h"
 #include "runtime/base/text.h"
 #include "tune/report/tune_report.h"
 

@@ -22,17 +22,11 @@ class LastOutcome final : public EventListener {
   Outcome outcome = Outcome::unchanged;
 };
 
-CoordinatorOptions plain_options() {
-  CoordinatorOptions options;
-  options.find_conflicts = false;
-  return options;
-}
-
 class OverrideSearch {
  public:
   OverrideSearch(const CompiledCatalog& catalog, std::span<const TaskId> tasks,
                  const SituationPart& situation)
-      : catalog_(catalog), coordinator_(catalog, plain_options(), last_) {
+      : catalog_(catalog), coordinator_(catalog, {}, last_) {
     matrix_.tasks.assign(tasks.begin(), tasks.end());
     std::vector<Availability> own;
     for (const SituationPart::Own& one : situation.behaviors) {

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "core/report/assumptions_json.h"
-#include "core/report/suitability.h"
 #include "core/support/json_description.h"
+#include "core/words/suitability.h"
 #include "verify/report/verify_report.h"
 
 // The effects of faults, as JSON. The context is the catalog.

@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
-#include "core/report/suitability.h"
 #include "core/report/table.h"
-#include "core/report/words.h"
 #include "core/support/wording.h"
+#include "core/words/suitability.h"
+#include "core/words/words.h"
 #include "page/table_page.h"
 #include "runtime/base/text.h"
 #include "verify/report/verify_report.h"

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "core/report/table.h"
-#include "core/report/words.h"
 #include "core/support/wording.h"
+#include "core/words/words.h"
 #include "runtime/base/text.h"
 #include "verify/report/verify_report.h"
 

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "core/report/test_report.h"
-#include "core/report/words.h"
 #include "core/support/wording.h"
+#include "core/words/words.h"
 #include "page/html_report.h"
 #include "page/simulator.h"
 #include "runtime/base/text.h"
@@ -216,7 +216,9 @@ std::string verify_to_html(const VerifyResult& result) {
       const Script& script = answer.witness->script;
       page.begin_run(catalog, script);
       const Exploration& exploration = part.verification.explorations[*answer.exploration];
-      page.end_run(run_script(seen_from(catalog, exploration.groups), script, {}, page), {});
+      page.end_run(run_script(seen_from(catalog, exploration.groups), script, {}, page,
+                              {.rejections = true}),
+                   {});
     }
   }
   page.list_properties(properties);

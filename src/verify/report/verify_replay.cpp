@@ -12,20 +12,20 @@
 #include <fmt/format.h>
 
 #include "core/report/explanation_json.h"
-#include "core/report/failure_explanation.h"
-#include "core/report/layout.h"
-#include "core/report/reason_words.h"
 #include "core/report/run_text.h"
-#include "core/report/words.h"
 #include "core/script/runner.h"
 #include "core/support/json_description.h"
 #include "core/support/system.h"
 #include "core/support/wording.h"
+#include "core/words/failure_explanation.h"
+#include "core/words/layout.h"
+#include "core/words/reason_words.h"
+#include "core/words/words.h"
 #include "runtime/coordinator/coordinator.h"
-#include "runtime/coordinator/explainer.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
 #include "verify/report/verify_report.h"
+#include "why/conflict.h"
 
 namespace cbc {
 namespace {
@@ -68,7 +68,7 @@ class ReplayListener final : public RunListener {
   }
   void set_last_move(Microseconds time) { last_move_ = time; }
 
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+  void on_event(const ExplainedRecord& record, const Step* step, const State& state) override {
     tell_idle_queue(record.time);
     has_events_ = true;
     if (record.time >= last_move_) begin_last_move();
@@ -151,9 +151,8 @@ class ReplayListener final : public RunListener {
 };
 
 Replay run(const CompiledCatalog& catalog, const Script& script, ReplayListener& listener) {
-  CoordinatorOptions options;
-  options.explain.displaced = true;
-  RunResult result = run_script(catalog, script, options, listener);
+  RunResult result =
+      run_script(catalog, script, {}, listener, {.rejections = true, .displaced = true});
   return std::move(listener).take(std::move(result));
 }
 

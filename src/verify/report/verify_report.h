@@ -11,9 +11,9 @@
 
 #include "core/diagnostic/diagnostic.h"
 #include "core/property/properties.h"
-#include "core/report/layout.h"
 #include "core/script/runner.h"
 #include "core/script/script.h"
+#include "core/words/layout.h"
 #include "explore/properties/verification.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "verify/engine/cut_sets.h"

@@ -12,8 +12,8 @@
 #include "core/check/together.h"
 #include "core/report/pair_matrix.h"
 #include "core/report/table.h"
-#include "core/report/words.h"
 #include "core/support/wording.h"
+#include "core/words/words.h"
 #include "runtime/base/text.h"
 #include "verify/report/verify_report.h"
 

@@ -39,14 +39,12 @@ void run(const std::string& input) {
   require(script.has_value() != diagnostics.has_errors(), "a script is refused without a reason");
   if (!script) return;
 
-  CoordinatorOptions options = bounded_coordinator();
-  options.last_decisions = true;
-  options.explain.displaced = true;
-  options.explain.alternatives = 1;
+  const Questions questions{
+      .rejections = true, .displaced = true, .alternatives = 1, .failures = true};
   MemoryFile memory;
   const auto report = make_report({memory.stream(), plain_style(), {true, true}, {}}, input.size());
   report->begin_run(*catalog, *script);
-  const RunResult result = run_script(*catalog, *script, options, *report);
+  const RunResult result = run_script(*catalog, *script, bounded_coordinator(), *report, questions);
   report->end_run(result, "");
   report->end();
   if (result.status == Coordinator::Status::refused_answer) fail(result.internal_error);

@@ -15,7 +15,7 @@ namespace {
 
 class NoListener final : public RunListener {
  public:
-  void on_event(const EventRecord&, const Step*, const State&) override {}
+  void on_event(const ExplainedRecord&, const Step*, const State&) override {}
 };
 
 void run(const std::string& input) {

@@ -108,10 +108,8 @@ std::optional<Observation> observe_end(const CompiledCatalog& catalog, const std
   if (document == nullptr) return std::nullopt;
   const auto script = read_script(*document, catalog, Severity::note, ignored);
   if (!script) return std::nullopt;
-  CoordinatorOptions options = options_of(*script);
-  options.find_conflicts = false;
   SilentRun listener;
-  Runner runner(catalog, options, listener);
+  Runner runner(catalog, options_of(*script), listener);
   runner.begin(script->situation);
   for (const Step& step : script->steps) {
     if (!runner.take(step)) return std::nullopt;
@@ -243,7 +241,6 @@ std::optional<Notice> find_notice(const CompiledCatalog& catalog, const Script& 
                                   const std::function<bool()>& is_stopped) {
   Notice notice;
   CoordinatorOptions options = options_of(mission);
-  options.find_conflicts = false;
   options.is_stopped = is_stopped;
   SilentRun listener;
   Runner runner(catalog, options, listener);

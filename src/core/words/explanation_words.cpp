@@ -1,4 +1,4 @@
-#include "core/report/explanation_words.h"
+#include "core/words/explanation_words.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "core/report/reason_words.h"
-#include "core/report/suitability.h"
-#include "core/report/words.h"
 #include "core/support/wording.h"
+#include "core/words/reason_words.h"
+#include "core/words/suitability.h"
+#include "core/words/words.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
@@ -75,7 +75,7 @@ Figures figures_of(const CompiledCatalog& catalog, GroupId group, const State& s
 
 /// " (lost: A and B)": the requests that the alternative does not serve, unlike the answer, without
 /// those of the tasks in question. `state`: before the event or after it.
-std::string describe_lost_requests(const CompiledCatalog& catalog, const EventRecord& record,
+std::string describe_lost_requests(const CompiledCatalog& catalog, const ExplainedRecord& record,
                                    const WhyNot& why_not, std::span<const TaskId> in_question,
                                    const State& state) {
   std::vector<TaskId> lost;
@@ -125,7 +125,7 @@ std::optional<std::uint32_t> find_exclusion(const CompiledCatalog& catalog, Task
 
 /// "REAR would need ENCODER, which excludes FRONT (robot.yaml:18)": why the two tasks of a
 /// difference do not run together, if an exclusion of what they need is the reason.
-std::string describe_rivalry(const CompiledCatalog& catalog, const EventRecord& record,
+std::string describe_rivalry(const CompiledCatalog& catalog, const ExplainedRecord& record,
                              const WhyNot& why_not) {
   const GroupId group = record.search->group;
   const TaskId served = why_not.difference.task;
@@ -170,7 +170,7 @@ std::string describe_cause(const CompiledCatalog& catalog, const EventRecord& re
 }
 
 /// The first objective in which the alternative of an answer loses.
-std::string describe_loss(const CompiledCatalog& catalog, const EventRecord& record,
+std::string describe_loss(const CompiledCatalog& catalog, const ExplainedRecord& record,
                           const WhyNot& why_not, std::span<const TaskId> in_question,
                           const State& state) {
   const Configuration& chosen = record.explanation.chosen;
@@ -217,7 +217,7 @@ std::string describe_decision(const CompiledCatalog& catalog, const UnexpectedTa
     default:
       break;
   }
-  const EventRecord& event = *unexpected.why_unmet.event;
+  const ExplainedRecord& event = *unexpected.why_unmet.event;
   const State& before = *unexpected.why_unmet.before;
   const Figures figures =
       figures_of(catalog, unexpected.group, before, event.explanation.chosen, why_not);
@@ -229,7 +229,7 @@ std::string describe_decision(const CompiledCatalog& catalog, const UnexpectedTa
 }
 
 /// `condition`: what would differ in the alternative ("if it ran").
-Sentences describe_against(const CompiledCatalog& catalog, const EventRecord& record,
+Sentences describe_against(const CompiledCatalog& catalog, const ExplainedRecord& record,
                            const std::string& subject, const std::string& condition,
                            const WhyNot& why_not, std::span<const TaskId> tasks, TaskId it,
                            const State& state) {
@@ -255,7 +255,7 @@ bool includes_all(std::span<const Reason> all, std::span<const Reason> some) {
 }
 
 /// Adds why behaviors were not chosen that suit their task better, unless that is told already.
-void add_better(const CompiledCatalog& catalog, const EventRecord& record, const Why& why,
+void add_better(const CompiledCatalog& catalog, const ExplainedRecord& record, const Why& why,
                 const State& state, Sentences& text) {
   const TaskId first = catalog.group_tasks[record.search->group];
   for (const BetterBehavior& better : why.better) {
@@ -279,7 +279,7 @@ void add_better(const CompiledCatalog& catalog, const EventRecord& record, const
 
 /// Of some tasks those that can start without a request, and run in the alternative of an answer,
 /// but not in the answer that the event chose: nothing that runs requires them.
-std::vector<TaskId> unneeded_tasks(const CompiledCatalog& catalog, const EventRecord& record,
+std::vector<TaskId> unneeded_tasks(const CompiledCatalog& catalog, const ExplainedRecord& record,
                                    const WhyNot& why_not, std::span<const TaskId> tasks) {
   std::vector<TaskId> unneeded;
   if (!why_not.alternative) return unneeded;
@@ -311,7 +311,7 @@ Sentences describe_due(const CompiledCatalog& catalog, const EventRecord& record
 }
 
 Sentences describe_decided(const CompiledCatalog& catalog, const UnexpectedTasks& unexpected) {
-  const EventRecord& event = *unexpected.why_unmet.event;
+  const ExplainedRecord& event = *unexpected.why_unmet.event;
   const WhyNot& why_not = unexpected.why_unmet.why_not;
   Sentences text;
   if (why_not.is_cut) {
@@ -417,7 +417,7 @@ bool is_over(const Reason& reason, const State& state) {
   }
 }
 
-Sentences describe_displacement(const CompiledCatalog& catalog, const EventRecord& record,
+Sentences describe_displacement(const CompiledCatalog& catalog, const ExplainedRecord& record,
                                 const Displacement& displaced, const State& state) {
   Sentences text =
       describe_against(catalog, record, task_name(catalog, displaced.task) + " stops", "if it ran",
@@ -445,8 +445,8 @@ std::vector<TaskId> tasks_of(const CompiledCatalog& catalog, const Why& why) {
   return tasks;
 }
 
-Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record, const Why& why,
-                       const State& state) {
+Sentences describe_why(const CompiledCatalog& catalog, const ExplainedRecord& record,
+                       const Why& why, const State& state) {
   if (why.due) return describe_due(catalog, record, why);
   const std::vector<TaskId> tasks = tasks_of(catalog, why);
   const std::vector<TaskId> unneeded = unneeded_tasks(catalog, record, why.why_not, tasks);
@@ -482,7 +482,7 @@ Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record
   return text;
 }
 
-std::string describe_alternative(const CompiledCatalog& catalog, const EventRecord& record,
+std::string describe_alternative(const CompiledCatalog& catalog, const ExplainedRecord& record,
                                  std::size_t place, const State& state) {
   const std::vector<Configuration>& list = record.explanation.alternatives;
   const GroupId group = record.search->group;

@@ -1,4 +1,4 @@
-#include "core/report/reason_words.h"
+#include "core/words/reason_words.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "core/report/suitability.h"
-#include "core/report/words.h"
 #include "core/support/wording.h"
+#include "core/words/suitability.h"
+#include "core/words/words.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
@@ -46,7 +46,6 @@ std::string fitting_values(const CompiledCatalog& catalog, const Reason& conditi
 
 std::string describe_misfit(const CompiledCatalog& catalog, const Reason& reason,
                             const std::string& behavior) {
-  if (reason.variable == none) return behavior + " does not fit the situation";
   if (reason.value != none) {
     return fmt::format("{} does not fit: {}", behavior,
                        describe_value(catalog, {reason.variable, reason.value}));
@@ -103,43 +102,70 @@ std::string describe_finished(const CompiledCatalog& catalog, const EventRecord&
 
 }  // namespace
 
+std::string describe_kind(Reason::Kind kind, const std::string& behavior, const std::string& task,
+                          const std::string& other_task) {
+  switch (kind) {
+    case Reason::Kind::priority:
+      return task + " has its own request of higher priority";
+    case Reason::Kind::no_behavior:
+      return "no behavior performs " + task;
+    case Reason::Kind::is_protected:
+      return task + " is protected by its request";
+    case Reason::Kind::exclusive:
+      return fmt::format("{} excludes {}", task, other_task);
+    case Reason::Kind::on_request:
+      return task + " starts only on request, and is not requested";
+    case Reason::Kind::requires_task:
+      return fmt::format("{} requires {}", behavior, task);
+    case Reason::Kind::performance:
+      return fmt::format("{} requires a minimum performance of {}",
+                         behavior.empty() ? "the catalog" : behavior, task);
+    case Reason::Kind::unavailable:
+      return behavior + " is unavailable";
+    case Reason::Kind::situation:
+      return behavior + " does not fit the situation";
+    case Reason::Kind::faulty:
+      return behavior + " is faulty";
+    case Reason::Kind::finished:
+      return behavior + " has just ended";
+    case Reason::Kind::stopped:
+      return task + " is stopped by this event";
+  }
+  return {};
+}
+
 std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& record,
                             const Reason& reason) {
-  const std::string task = reason.task == none ? "" : task_name(catalog, reason.task);
+  const auto name = [&](TaskId task) {
+    return task == none ? std::string() : task_name(catalog, task);
+  };
+  const std::string task = name(reason.task);
   const std::string behavior =
       reason.behavior == none ? "" : behavior_name(catalog, reason.behavior);
+  const std::string text = describe_kind(reason.kind, behavior, task, name(reason.other_task));
   switch (reason.kind) {
     case Reason::Kind::priority:
       return fmt::format("{} has a request of priority {}, higher than {}", task, reason.priority,
                          record.priority);
-    case Reason::Kind::no_behavior:
-      return fmt::format("no behavior performs {}", task);
     case Reason::Kind::is_protected:
       return fmt::format("{} {}", task, describe_protection(record, reason));
-    case Reason::Kind::exclusive:
-      return fmt::format("{} excludes {}", task, task_name(catalog, reason.other_task)) +
-             place(catalog, reason);
     case Reason::Kind::on_request:
-      return task + " starts only on request, and is not requested: request it first";
+      return text + ": request it first";
+    case Reason::Kind::exclusive:
     case Reason::Kind::requires_task:
-      return fmt::format("{} requires {}", behavior, task) + place(catalog, reason);
+      return text + place(catalog, reason);
     case Reason::Kind::performance:
       return fmt::format("{} requires {} with at least {}",
                          reason.behavior == none ? "the catalog" : behavior, task,
                          format_percent(reason.minimum_performance)) +
              place(catalog, reason) + describe_best(catalog, reason);
-    case Reason::Kind::unavailable:
-      return fmt::format("{} is unavailable", behavior);
     case Reason::Kind::situation:
-      return describe_misfit(catalog, reason, behavior);
-    case Reason::Kind::faulty:
-      return fmt::format("{} is faulty", behavior);
+      return reason.variable == none ? text : describe_misfit(catalog, reason, behavior);
     case Reason::Kind::finished:
       return describe_finished(catalog, record, reason.behavior);
-    case Reason::Kind::stopped:
-      return fmt::format("{} is stopped by this event", task);
+    default:
+      return text;
   }
-  return {};
 }
 
 namespace {
@@ -321,7 +347,7 @@ std::vector<const Reason*> order_reasons(const CompiledCatalog& catalog,
 }
 
 std::vector<std::string> describe_rejection(const CompiledCatalog& catalog,
-                                            const EventRecord& record) {
+                                            const ExplainedRecord& record) {
   if (record.search != nullptr && record.search->result.status == SearchStatus::unknown) {
     return {"a search limit was reached before the first solution"};
   }

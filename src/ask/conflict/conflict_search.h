@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "ask/conflict/reasons.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "runtime/explain/reasons.h"
 #include "runtime/solver/conflict_analysis.h"
 #include "runtime/solver/domains.h"
 #include "runtime/solver/objective.h"

@@ -21,17 +21,21 @@
 #include "runtime/coordinator/coordinator.h"
 #include "statistics.h"
 #include "support/rounds.h"
+#include "why/inquiry.h"
 #include "yaml_text.h"
 
-namespace cbc::oracle::last_decisions_test {
+namespace cbc::oracle::journal_test {
 namespace {
 
 /// Runs a script, and after each event asks about all behaviors that are not active.
-class Questions final : private EventListener {
+class Hindsight final : private EventListener {
  public:
-  Questions(const CompiledCatalog& catalog, const CoordinatorOptions& options,
-            Statistics& statistics)
-      : catalog_(catalog), statistics_(statistics), coordinator_(catalog, options, *this) {}
+  Hindsight(const CompiledCatalog& catalog, const CoordinatorOptions& options,
+            const Questions& questions, Statistics& statistics)
+      : catalog_(catalog),
+        statistics_(statistics),
+        inquiry_(catalog, options, questions),
+        coordinator_(catalog, options, *this) {}
 
   void run(const cbc::Script& script) {
     coordinator_.begin(script.situation.availability, script.situation.variables);
@@ -54,7 +58,13 @@ class Questions final : private EventListener {
     return status == Coordinator::Status::ok;
   }
 
-  void on_event(const EventRecord& record) override {
+  void on_decision(const EventRecord& record, const Circumstances& circumstances,
+                   const cbc::Assignment* solution) override {
+    inquiry_.on_decision(record, circumstances, solution);
+  }
+
+  void on_event(const EventRecord& happened) override {
+    const ExplainedRecord& record = inquiry_.on_event(happened, coordinator_.state());
     if (record.search == nullptr && record.outcome != cbc::Outcome::rejected) return;
     if (record.outcome == cbc::Outcome::accepted) {
       rejected_.erase(record.search->group);
@@ -85,7 +95,7 @@ class Questions final : private EventListener {
       ways.push_back({{Demand::Kind::has, task, value - catalog_.values.begin[task]}});
     }
     const GroupId group = catalog_.group_of(behavior);
-    const WhyUnmet answer = coordinator_.why_unmet(group, ways);
+    const WhyUnmet answer = inquiry_.why_unmet(coordinator_.state(), group, ways);
     ASSERT_EQ(answer.kind == WhyUnmet::Kind::blocked, is_blocked);
     if (is_blocked) {
       check_blocked(answer.blocked);
@@ -163,6 +173,7 @@ class Questions final : private EventListener {
 
   const CompiledCatalog& catalog_;
   Statistics& statistics_;
+  Inquiry inquiry_;
   Coordinator coordinator_;
   std::map<BehaviorId, Known> known_;
   std::map<GroupId, std::pair<std::uint64_t, TaskId>> rejected_;  ///< event and task
@@ -180,17 +191,14 @@ void run_case(std::uint64_t seed, Statistics& statistics) {
   ASSERT_NE(document, nullptr);
   const auto script = read_script(*document, catalog, Severity::warning, diagnostics);
   ASSERT_TRUE(script);
-  CoordinatorOptions options;
-  options.reactive_delay = script->reactive_delay;
-  options.timeouts = script->timeouts;
-  options.last_decisions = true;
+  Questions questions{.failures = true};
   for (std::uint32_t behavior = 0; behavior < catalog.behavior_names.size(); ++behavior) {
-    options.explain.why.push_back({false, behavior});
+    questions.why.push_back({false, behavior});
   }
-  Questions(catalog, options, statistics).run(*script);
+  Hindsight(catalog, options_of(*script), questions, statistics).run(*script);
 }
 
-TEST(LastDecisions, KnowsWhatTheEventExplained) {
+TEST(Journal, KnowsWhatTheEventExplained) {
   const std::uint64_t first = environment("CBC_SEED", 1);
   const std::uint64_t cases = environment("CBC_HINDSIGHT_CASES", test::rounds(60U));
   Statistics statistics;
@@ -205,4 +213,4 @@ TEST(LastDecisions, KnowsWhatTheEventExplained) {
 }
 
 }  // namespace
-}  // namespace cbc::oracle::last_decisions_test
+}  // namespace cbc::oracle::journal_test

@@ -1,4 +1,4 @@
-#include "core/report/condition_words.h"
+#include "core/words/condition_words.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "core/report/words.h"
 #include "core/support/wording.h"
+#include "core/words/words.h"
 #include "runtime/base/text.h"
 
 namespace cbc {

@@ -8,7 +8,7 @@
 // To rule out the solutions that are known, one by one, would need constraints of another kind,
 // which propagate nothing until almost all tasks have values; and a search that collects the k best
 // cannot prune before it has k of them.
-#include "runtime/explain/alternatives.h"
+#include "why/alternatives.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 #include <iterator>
 #include <utility>
 
-#include "runtime/explain/reasons.h"
+#include "ask/conflict/reasons.h"
 
 namespace cbc {
 namespace {

@@ -4,12 +4,18 @@
 #include <string>
 #include <vector>
 
+#include "ask/conflict/reasons.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/record.h"
+#include "why/explanation.h"
 
 // Reasons in words.
 
 namespace cbc {
+
+/// A kind of reason, in a sentence with these names, whatever the event was.
+[[nodiscard]] std::string describe_kind(Reason::Kind kind, const std::string& behavior,
+                                        const std::string& task, const std::string& other_task);
 
 /// A reason for a rejection or a choice, in a sentence, with its place in the catalog if it has
 /// one.
@@ -33,6 +39,6 @@ namespace cbc {
 
 /// Why an event was rejected, in one line or more: see describe_reasons.
 [[nodiscard]] std::vector<std::string> describe_rejection(const CompiledCatalog& catalog,
-                                                          const EventRecord& record);
+                                                          const ExplainedRecord& record);
 
 }  // namespace cbc

@@ -6,23 +6,14 @@
 #include <string_view>
 #include <vector>
 
+#include "ask/conflict/reasons.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "runtime/explain/reasons.h"
+#include "runtime/coordinator/record.h"
 #include "runtime/solver/objective.h"
 #include "runtime/solver/problem.h"
 #include "runtime/solver/solver.h"
 
 namespace cbc {
-
-/// The objectives of a solution but for f2, over the whole catalog (docs/semantics.md,
-/// "Objectives"). Idle tasks are those that can start without a request.
-struct ObjectiveValues {
-  std::uint32_t satisfied = 0;     ///< requests, for f1
-  std::uint32_t requests = 0;      ///< active requests, for f1
-  std::uint32_t idle_total = 0;    ///< idle tasks, for f3
-  std::uint32_t idle_running = 0;  ///< idle tasks that run, for f3
-  std::uint32_t changes = 0;       ///< for f4
-};
 
 /// A solution of the problem of a group, with its objectives.
 struct Configuration {

@@ -1,4 +1,4 @@
-#include "core/report/failure_explanation.h"
+#include "core/words/failure_explanation.h"
 
 #include <algorithm>
 #include <set>
@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "core/report/layout.h"
-#include "core/report/reason_words.h"
-#include "core/report/words.h"
+#include "ask/conflict/reasons.h"
+#include "core/words/layout.h"
+#include "core/words/reason_words.h"
+#include "core/words/words.h"
 #include "runtime/base/text.h"
-#include "runtime/explain/reasons.h"
 
 namespace cbc {
 namespace {
@@ -68,7 +68,7 @@ void FailureExplanation::begin_run(const CompiledCatalog& catalog, const Script&
                            [](const Step& step) { return step.expect.has_value(); });
 }
 
-void FailureExplanation::add(const EventRecord& record, const Step* step, const State& state) {
+void FailureExplanation::add(const ExplainedRecord& record, const Step* step, const State& state) {
   if (!is_needed_) return;
   last_ = &record;
   last_step_ = step;
@@ -89,7 +89,7 @@ void FailureExplanation::add(const EventRecord& record, const Step* step, const 
   reasons_ = describe_rejection(*catalog_, record);
 }
 
-void FailureExplanation::note_stops(const EventRecord& record, const State& state) {
+void FailureExplanation::note_stops(const ExplainedRecord& record, const State& state) {
   std::erase_if(stops_, [&state](const auto& stop) { return state.is_running(stop.first); });
   for (const StoppedTask& stopped : record.stopped_tasks) {
     Stop& stop = stops_[stopped.task];
@@ -162,7 +162,7 @@ void FailureExplanation::note_timeouts(const EventRecord& record, const State& s
   }
 }
 
-void FailureExplanation::note_waits(const EventRecord& record, const State& state) {
+void FailureExplanation::note_waits(const ExplainedRecord& record, const State& state) {
   std::erase_if(waits_, [&state](const auto& wait) { return !state.is_waiting(wait.first); });
   if (record.origin != Origin::reactive || record.outcome != Outcome::rejected) return;
   if (!state.is_waiting(record.task)) return;

@@ -8,7 +8,7 @@
 // To solve a problem again and again, with one constraint less each time, would need no proofs. But
 // a task may have hundreds of rivals and requirements. The core leaves a few of them after one
 // search, and only from these a minimal conflict set is made (reasons.cpp).
-#include "runtime/explain/conflict_search.h"
+#include "ask/conflict/conflict_search.h"
 
 #include <algorithm>
 #include <utility>

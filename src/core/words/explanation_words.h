@@ -24,11 +24,11 @@ struct Sentences {
 
 /// Why a requested task no longer runs. Here and below, the state is the one after the event.
 [[nodiscard]] Sentences describe_displacement(const CompiledCatalog& catalog,
-                                              const EventRecord& record,
+                                              const ExplainedRecord& record,
                                               const Displacement& displaced, const State& state);
 
 /// Why a task has its value, or why a behavior is active or not.
-[[nodiscard]] Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record,
+[[nodiscard]] Sentences describe_why(const CompiledCatalog& catalog, const ExplainedRecord& record,
                                      const Why& why, const State& state);
 
 /// The tasks that an explanation is about: those of the behavior, or the task.
@@ -37,7 +37,7 @@ struct Sentences {
 /// A listed configuration: its objectives, then what runs in it; for all but the first one, only
 /// the differences from the first.
 [[nodiscard]] std::string describe_alternative(const CompiledCatalog& catalog,
-                                               const EventRecord& record, std::size_t place,
+                                               const ExplainedRecord& record, std::size_t place,
                                                const State& state);
 
 /// The tasks of a group that have different values in two configurations, in catalog order.

@@ -1,8 +1,8 @@
-#include "core/report/move_words.h"
+#include "core/words/move_words.h"
 
 #include <limits>
 
-#include "core/report/words.h"
+#include "core/words/words.h"
 
 namespace cbc {
 namespace {
@@ -13,7 +13,7 @@ class MoveWords final : public RunListener {
             std::vector<std::string>& moves)
       : catalog_(catalog), due_(due), moves_(moves) {}
 
-  void on_event(const EventRecord& record, const Step* step, const State& /*state*/) override {
+  void on_event(const ExplainedRecord& record, const Step* step, const State& /*state*/) override {
     if (step == nullptr) return;
     add_due(record.time);
     moves_.push_back(describe_event(catalog_, record, step));

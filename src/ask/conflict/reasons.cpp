@@ -1,4 +1,4 @@
-#include "runtime/explain/reasons.h"
+#include "ask/conflict/reasons.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -7,14 +7,14 @@
 #include <string_view>
 #include <vector>
 
+#include "ask/conflict/reasons.h"
 #include "cbc/units.h"
-#include "core/report/explanation_words.h"
 #include "core/script/runner.h"
 #include "core/script/script.h"
+#include "core/words/explanation_words.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
-#include "runtime/explain/reasons.h"
 #include "runtime/solver/problem.h"
 
 // Why expectations fail, for people.
@@ -37,7 +37,7 @@ class FailureExplanation {
   void begin_run(const CompiledCatalog& catalog, const Script& script);
   /// The same of a stream, which may expect something in any line.
   void begin_stream(const CompiledCatalog& catalog);
-  void add(const EventRecord& record, const Step* step, const State& state);
+  void add(const ExplainedRecord& record, const Step* step, const State& state);
 
   // To be called before the next event is handled.
 
@@ -79,8 +79,8 @@ class FailureExplanation {
     bool is_anew = false;  ///< the task ran before
   };
 
-  void note_stops(const EventRecord& record, const State& state);
-  void note_waits(const EventRecord& record, const State& state);
+  void note_stops(const ExplainedRecord& record, const State& state);
+  void note_waits(const ExplainedRecord& record, const State& state);
   void note_changes(const EventRecord& record, const Step* step, const State& state);
   void note_timeouts(const EventRecord& record, const State& state);
   /// Whether the last rejection may be why an expectation fails.

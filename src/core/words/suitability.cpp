@@ -1,4 +1,4 @@
-#include "core/report/suitability.h"
+#include "core/words/suitability.h"
 
 #include <algorithm>
 #include <cmath>

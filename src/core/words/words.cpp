@@ -1,13 +1,13 @@
-#include "core/report/words.h"
+#include "core/words/words.h"
 
 #include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "core/report/condition_words.h"
-#include "core/report/layout.h"
 #include "core/support/wording.h"
+#include "core/words/condition_words.h"
+#include "core/words/layout.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
