@@ -49,10 +49,10 @@ std::map<std::string, Room> rows_of_table() {
   return rows;
 }
 
-/// The row of a folder: its own, or that of the nearest folder around it.
-const Room* row_of(const std::map<std::string, Room>& rows, std::string folder) {
-  for (; !folder.empty(); folder = fs::path(folder).parent_path().string()) {
-    if (const auto row = rows.find(folder); row != rows.end()) return &row->second;
+/// The row of a folder or of the nearest one around it; that of src is for the files in it alone.
+const Room* row_of(const std::map<std::string, Room>& rows, const std::string& folder) {
+  for (fs::path at = folder; !at.empty() && (at != "src" || folder == at); at = at.parent_path()) {
+    if (const auto row = rows.find(at.string()); row != rows.end()) return &row->second;
   }
   return nullptr;
 }
@@ -77,7 +77,7 @@ std::vector<Include> all_includes() {
     std::ifstream file(entry.path());
     for (std::string line; std::getline(file, line);) {
       std::smatch match;
-      if (!std::regex_search(line, match, form)) continue;
+      if (!line.starts_with("#include") || !std::regex_search(line, match, form)) continue;
       if (match[1] != "cbc") includes.push_back({path, path.parent_path(), match[1]});
     }
   }
