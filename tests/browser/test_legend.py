@@ -4,7 +4,7 @@ import unittest
 
 from page_case import OUT, QUADROTOR, PageCase, long_script, solve, write
 
-SITUATIONS = "tests/golden/cases/graph_situation/catalog.yaml"
+SITUATIONS = "tests/golden/shared/graph_situation/catalog.yaml"
 
 
 class Legend(PageCase):

@@ -312,7 +312,7 @@ class Page(PageCase):
                                                    if event["outcome"] == "rejected"])
 
     def test_a_fault_that_explains_a_failure_is_told_there(self):
-        case = "tests/golden/cases/fault_of_active_expected/mission.yaml"
+        case = "tests/golden/shared/fault_of_active_expected/mission.yaml"
         self.open(solve("late-fault", case))
         self.assertEqual(self.number(), 2)
         detail = self.text("#detail-body")
@@ -364,7 +364,7 @@ class Page(PageCase):
                 self.assertLessEqual(bottom, low + 1)
 
     def test_paper_says_why_expectations_failed(self):
-        self.open(solve("late-fault", "tests/golden/cases/fault_of_active_expected/mission.yaml"))
+        self.open(solve("late-fault", "tests/golden/shared/fault_of_active_expected/mission.yaml"))
         self.browser.call("Emulation.setEmulatedMedia", media="print")
         self.browser.ask("dispatchEvent(new Event('beforeprint'))")
         printed = self.browser.ask("[...document.querySelectorAll('.for-print')].map((one) => one.innerText).join()")
@@ -485,7 +485,7 @@ class Page(PageCase):
         self.assertEqual(len(places), 3)  # the status is always at the same place
 
     def test_names_that_a_task_and_a_behavior_share(self):
-        case = "tests/golden/cases/solve_same_names/"
+        case = "tests/golden/shared/solve_same_names/"
         self.open(solve("same-names", case + "catalog.yaml", case + "script.yaml"))
         rows = [self.text(f"#events > tbody > tr:nth-child({number})") for number in range(1, 5)]
         self.assertIn("behavior LAND (LAND) takes the place of HOVER_WITH_PID (HOVER)", rows[1])

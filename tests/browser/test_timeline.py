@@ -311,7 +311,7 @@ class Timeline(PageCase):
         self.browser.screenshot(OUT / "large-graph.png")
 
     def test_reactive_starts_timeouts_and_restarts(self):
-        case = "tests/golden/cases/"
+        case = "tests/golden/shared/"
         made = solve("reactive", case + "reactive_queue/catalog.yaml",
                      case + "reactive_queue/script.yaml")
         self.open(made)
@@ -340,7 +340,7 @@ class Timeline(PageCase):
         self.browser.screenshot(OUT / "restart.png")
 
     def test_situations_and_waiting_tasks(self):
-        catalog = "tests/golden/cases/graph_situation/catalog.yaml"
+        catalog = "tests/golden/shared/graph_situation/catalog.yaml"
         script = write("situations.mission.yaml", {
             "situation": {"GPS_SIGNAL": False},
             "events": [

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# check_gitlab.sh PROGRAM: runs the script of the example for GitLab in docs/ci.md, as it stands there, and
+# check_gitlab.sh PROGRAM CASES: runs the script of the example for GitLab in docs/ci.md, as it stands there, and
 # compares its report with what lint prints in another format.
 #
 # Exit status: 0 all is well, 1 it is not, 77 skipped: a tool is missing.
@@ -43,7 +43,7 @@ run 0
 [[ $(<code-quality.json) == "[]" ]] || fail "a sound catalog: $(<code-quality.json)"
 
 # Files with all kinds of findings, two of one kind at one place, and a name with quotes.
-for case in "$source"/tests/golden/cases/*/; do
+for case in "$2"/*/; do
   if [[ -f $case/catalog.yaml ]]; then
     cp -- "$case/catalog.yaml" "catalogs/$(basename -- "$case").yaml"
   fi

@@ -17,6 +17,7 @@
 #include "support/catalog_files.h"
 #include "support/read_file.h"
 #include "support/rich_catalog.h"
+#include "support/sessions.h"
 
 namespace cbc::fuzz {
 namespace {
@@ -25,14 +26,13 @@ namespace fs = std::filesystem;
 
 const fs::path source = CBC_SOURCE_DIR;
 
-/// The folders of the golden cases, in the order of their names.
-std::vector<fs::path> golden_cases() {
-  std::vector<fs::path> folders;
-  for (const auto& entry : fs::directory_iterator(source / "tests/golden/cases")) {
-    folders.push_back(entry.path());
+/// The files that stand in a golden case, by their paths.
+std::map<std::string, std::string> files_of(const test::Case& one) {
+  std::map<std::string, std::string> files;
+  for (const test::CaseFile& file : one.files) {
+    if (file.is_in_session) files[file.path] = file.content;
   }
-  std::sort(folders.begin(), folders.end());
-  return folders;
+  return files;
 }
 
 /// The catalogs in catalogs/, each with the file beside it that has this suffix.
@@ -84,10 +84,11 @@ std::vector<std::string> catalog_texts() {
 
 std::vector<Pair> catalogs_with_scripts() {
   std::vector<Pair> pairs = published(".mission.yaml");
-  for (const fs::path& folder : golden_cases()) {
+  for (const test::Case& one : test::read_cases()) {
+    const auto files = files_of(one);
     for (const char* const script : {"script.yaml", "mission.yaml"}) {
-      if (!fs::exists(folder / "catalog.yaml") || !fs::exists(folder / script)) continue;
-      pairs.push_back({test::read_file(folder / "catalog.yaml"), test::read_file(folder / script)});
+      if (!files.contains("catalog.yaml") || !files.contains(script)) continue;
+      pairs.push_back({files.at("catalog.yaml"), files.at(script)});
     }
   }
   for (const Rule& rule : all_rules()) {
@@ -110,15 +111,17 @@ std::vector<Pair> catalogs_with_properties() {
 
 std::vector<Pair> settings_with_catalogs() {
   std::vector<Pair> pairs;
-  for (const fs::path& folder : golden_cases()) {
-    for (const auto& file : fs::recursive_directory_iterator(folder)) {
-      if (file.path().filename() != ".cbc.yaml") continue;
-      fs::path catalog = file.path().parent_path() / "catalog.yaml";
-      if (!fs::exists(catalog)) catalog = source / "catalogs/suave.yaml";
-      pairs.push_back({test::read_file(file.path()), test::read_file(catalog)});
+  for (const test::Case& one : test::read_cases()) {
+    const auto files = files_of(one);
+    for (const auto& [path, settings] : files) {
+      if (fs::path(path).filename() != ".cbc.yaml") continue;
+      const auto catalog = files.find((fs::path(path).parent_path() / "catalog.yaml").string());
+      pairs.push_back({settings, catalog != files.end()
+                                     ? catalog->second
+                                     : test::read_file(source / "catalogs/suave.yaml")});
     }
-    if (folder.filename().string().starts_with("lint_allow_comments")) {
-      pairs.push_back({"strict: true\n", test::read_file(folder / "catalog.yaml")});
+    if (one.name.starts_with("lint_allow_comments")) {
+      pairs.push_back({"strict: true\n", files.at("catalog.yaml")});
     }
   }
   for (const Rule& rule : all_rules()) {

@@ -69,7 +69,7 @@ TEST_F(Compile, WritesTheSameBytesEachTimeAndEverywhere) {
 /// The file of the tests of the newest format was written once, by another compiler than some of
 /// those that build this.
 TEST_F(Compile, WritesTheSameBytesWhateverItWasBuiltWith) {
-  const std::string kept = CBC_SOURCE_DIR "/tests/golden/cases/compiled_format_2_solve/robot";
+  const std::string kept = CBC_SOURCE_DIR "/tests/golden/shared/compiled_format_2_solve/robot";
   fs::copy_file(kept + ".yaml", folder / "robot.yaml");
   const CompiledFileResult before = load_compiled(kept + ".cbc");
   ASSERT_TRUE(before.file) << before.error;

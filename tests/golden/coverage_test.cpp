@@ -371,7 +371,7 @@ TEST_F(WriteMissing, SaysWhatALimitLeavesOpen) {
 /// A folder with the missions that would notice survivors, beside those that exist: then nothing
 /// survives.
 TEST_F(Mutants, WritesTheMissionsThatNoticeSurvivors) {
-  const std::string cases = "tests/golden/cases/coverage_mutants/";
+  const std::string cases = "tests/golden/shared/coverage_mutants/";
   const auto judge = [&](const std::string& beside) {
     const Result result = cbc({"coverage", cases + "robot.yaml", cases + "delivery.mission.yaml",
                                beside, "--mutants", "--scripts", folder, "--format", "json"});

@@ -1,117 +1,70 @@
-// The program from outside: for each folder of cases/ a command line, and exactly what the program
-// has to make of it. Files of a case:
+// The program from outside: the sessions in sessions/, each a text of commands and of exactly what
+// comes of them, about one topic. The first characters of a line say what it is:
 //
-//   command   one line of arguments, for the folder of the case as working directory. Blanks
-//             separate them, single quotes keep blanks; "> FILE" at the end sends standard output
-//             to a file (/dev/full).
-//   stdin     what the program reads from standard input; if it is missing, nothing
-//   stdout    what the program writes to standard output; if it is missing, nothing
-//   stderr    the same for standard error
-//   status    the exit status
+//   ## NAME      begins a case: its files and commands get a folder of their own
+//   # ...        a comment
+//   + FILE       a file in this folder; its lines follow, set in by two blanks. Before the first
+//                case, a file is one of every case. Without lines, it is copied: a file, or with a
+//                slash at its end a folder, of shared/ or of the repository.
+//   $ cbc ...    a command. Blanks separate arguments, single quotes keep blanks; "< FILE" and
+//                "> FILE" at the end are its standard input (nothing else) and output (/dev/full)
+//   two blanks   a line that it writes to standard output
+//   ! ...        a line that it writes to standard error
+//   [2]          its exit status, if that is not 0
 //
-// All else in the folder is input: catalogs and scripts.
+// Of empty lines before the next command, file, comment or case, one is none of a file or of an
+// output. "\ " in place of two blanks, and "\!" in place of "! ", begin a line in which \\, \n, \r
+// and \xNN mean what they do in C, which ends without "\n": for bytes that editors change, such as
+// blanks at the end of a line.
 //
-// After a change of the output that is meant, CBC_UPDATE_GOLDEN=1 makes the tests write the last
-// three anew from what the program does:
+// After a change of the output that is meant, CBC_UPDATE_GOLDEN=1 makes the tests write it anew
+// from what the program does, and leave all else as it is:
 //
-//   CBC_UPDATE_GOLDEN=1 build/release/tests/cbc_golden_tests
-//   git diff tests/golden/cases
+//   CBC_UPDATE_GOLDEN=1 build/release/tests/cbc_golden_tests --gtest_filter='Session/*'
+//   git diff tests/golden/sessions
 //
 // Whatever the program did is then what it should do, so this diff is to be read line by line.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "golden/json_relations.h"
 #include "golden/process.h"
-#include "support/read_file.h"
+#include "support/lines.h"
+#include "support/scratch_folder.h"
+#include "support/sessions.h"
+
+namespace cbc::test {
+
+inline void PrintTo(const Case& one, std::ostream* out) {
+  *out << one.session.string() << ", " << one.name;
+}
+
+}  // namespace cbc::test
 
 namespace cbc::golden::golden_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path cases_folder() { return fs::path(CBC_SOURCE_DIR) / "tests" / "golden" / "cases"; }
-
-std::vector<std::string> find_cases() {
-  std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(cases_folder())) {
-    if (entry.is_directory()) names.push_back(entry.path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 bool is_updating() {
   const char* const value = std::getenv("CBC_UPDATE_GOLDEN");
   return value != nullptr && std::string(value) == "1";
 }
 
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> words;
-  bool is_in_word = false;
-  bool is_quoted = false;
-  for (const char character : line) {
-    const bool separates = !is_quoted && (character == ' ' || character == '\n');
-    if (!separates && !is_in_word) words.emplace_back();
-    is_in_word = !separates;
-    if (character == '\'') {
-      is_quoted = !is_quoted;
-    } else if (!separates) {
-      words.back() += character;
-    }
-  }
-  return words;
-}
-
-Call read_call(const fs::path& folder) {
-  Call call;
-  call.folder = folder;
-  call.arguments = split(test::read_file(folder / "command"));
-  const std::size_t count = call.arguments.size();
-  if (count >= 2 && call.arguments[count - 2] == ">") {
-    call.standard_output = call.arguments.back();
-    call.arguments.resize(count - 2);
-  }
-  if (fs::exists(folder / "stdin")) call.standard_input = folder / "stdin";
-  return call;
-}
-
-std::string read_if_there(const fs::path& path) {
-  return fs::exists(path) ? test::read_file(path) : std::string();
-}
-
-/// Writes a file, or removes it if there is nothing to write.
-void update(const fs::path& path, const std::string& text) {
-  if (read_if_there(path) == text) return;
-  if (text.empty()) {
-    fs::remove(path);
-  } else {
-    std::ofstream(path, std::ios::binary) << text;
-  }
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-/// Fails if a text is not that of the file, with the first line that differs.
-void expect_text_of(const fs::path& path, const std::string& actual) {
-  const std::string expected = read_if_there(path);
+/// Fails if an output is not the one in the session, with the first line that differs.
+void expect_text(const std::string& place, const std::string& expected, const std::string& actual) {
   if (expected == actual) return;
   constexpr std::size_t context = 40;  // shown of a line before what differs
   constexpr std::size_t longest = 160;
-  const std::vector<std::string> left = lines_of(expected);
-  const std::vector<std::string> right = lines_of(actual);
+  const std::vector<std::string> left = test::lines_of(expected);
+  const std::vector<std::string> right = test::lines_of(actual);
   std::size_t line = 0;
   while (line < left.size() && line < right.size() && left[line] == right[line]) ++line;
   const std::string wanted = line < left.size() ? left[line] : "(end)";
@@ -119,7 +72,7 @@ void expect_text_of(const fs::path& path, const std::string& actual) {
   const auto differs = std::mismatch(wanted.begin(), wanted.end(), found.begin(), found.end());
   const auto equal = static_cast<std::size_t>(differs.first - wanted.begin());
   const std::size_t begin = equal > context ? equal - context : 0;
-  ADD_FAILURE() << path.string() << ":" << line + 1 << ": expected\n  "
+  ADD_FAILURE() << place << ", line " << line + 1 << ": expected\n  "
                 << wanted.substr(begin, longest) << "\nbut found\n  "
                 << found.substr(begin, longest);
 }
@@ -130,29 +83,42 @@ bool asks_for_json(const Call& call) {
          *(format + 1) == "json";
 }
 
-class Golden : public testing::TestWithParam<std::string> {};
+class Golden : public testing::TestWithParam<test::Case> {
+ protected:
+  Result run_in_folder(const test::CaseCommand& command) {
+    Call call{command.arguments, folder.path()};
+    if (!command.input.empty()) call.standard_input = call.folder / command.input;
+    if (!command.output.empty()) call.standard_output = call.folder / command.output;
+    Result result = run(call);
+    if (asks_for_json(call) && !result.out.empty()) {
+      EXPECT_EQ(find_contradictions(result.out), std::vector<std::string>());
+    }
+    return result;
+  }
+
+  test::ScratchFolder folder;
+};
 
 TEST_P(Golden, Matches) {
-  const fs::path folder = cases_folder() / GetParam();
-  ASSERT_TRUE(fs::exists(folder / "command")) << folder;
-  const Call call = read_call(folder);
-  const Result result = run(call);
-  const std::string status = std::to_string(result.status) + "\n";
-  if (is_updating()) {
-    update(folder / "stdout", result.out);
-    update(folder / "stderr", result.err);
-    update(folder / "status", status);
+  test::Case tested = GetParam();
+  test::unpack(tested, folder.path());
+  for (test::CaseCommand& command : tested.commands) {
+    Result result = run_in_folder(command);
+    const std::string place = tested.session.string() + ":" + std::to_string(command.line) + ": ";
+    if (!is_updating()) {
+      expect_text(place + "standard output", command.out, result.out);
+      expect_text(place + "standard error", command.err, result.err);
+      EXPECT_EQ(command.status, result.status) << place << "exit status";
+    }
+    command.out = std::move(result.out);
+    command.err = std::move(result.err);
+    command.status = result.status;
   }
-  expect_text_of(folder / "stdout", result.out);
-  expect_text_of(folder / "stderr", result.err);
-  expect_text_of(folder / "status", status);
-  if (asks_for_json(call) && !result.out.empty()) {
-    EXPECT_EQ(find_contradictions(result.out), std::vector<std::string>());
-  }
+  if (is_updating()) test::update_session(tested);
 }
 
-INSTANTIATE_TEST_SUITE_P(Case, Golden, testing::ValuesIn(find_cases()),
-                         [](const auto& tested) { return tested.param; });
+INSTANTIATE_TEST_SUITE_P(Session, Golden, testing::ValuesIn(test::read_cases()),
+                         [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
 }  // namespace cbc::golden::golden_test

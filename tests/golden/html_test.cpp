@@ -16,10 +16,10 @@ namespace fs = std::filesystem;
 
 class Html : public testing::Test {
  protected:
-  /// Runs a script of the folder of a case.
+  /// Runs a script of one of the shared folders.
   static Result solve(const std::string& name, const std::vector<std::string>& more) {
     Call call{{"solve", "catalog.yaml", "script.yaml"},
-              fs::path(CBC_SOURCE_DIR) / "tests" / "golden" / "cases" / name};
+              fs::path(CBC_SOURCE_DIR) / "tests" / "golden" / "shared" / name};
     call.arguments.insert(call.arguments.end(), more.begin(), more.end());
     return run(call);
   }

@@ -47,7 +47,7 @@ class File {
 };
 
 File open_file(const std::filesystem::path& path, int flags) {
-  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
+  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
   if (descriptor < 0) fail(path.string(), errno);
   return File(descriptor);
 }
@@ -169,7 +169,8 @@ Result run(const Call& call, const std::function<void(pid_t)>& meanwhile) {
   if (call.standard_output.empty()) {
     out = open_pipe();
   } else {
-    out.write = open_file(call.standard_output, O_WRONLY | call.standard_output_flags);
+    out.write =
+        open_file(call.standard_output, O_WRONLY | O_CREAT | O_TRUNC | call.standard_output_flags);
   }
   Ends err = open_pipe();
   const pid_t process = spawn(call, open_file(call.standard_input, O_RDONLY), out.write, err.write);

@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path folder_of(const std::string& name) {
-  return fs::path(CBC_SOURCE_DIR) / "tests" / "golden" / "cases" / name;
+  return fs::path(CBC_SOURCE_DIR) / "tests" / "golden" / "shared" / name;
 }
 
 /// Without escape sequences of colors, and with the line ends of files.
@@ -360,7 +360,7 @@ TEST(Pages, ShowFilesAsTheyAre) {
   const std::string root = CBC_SOURCE_DIR;
   for (const char* const name : {"verify_conditions", "verify_lasting", "verify_outcomes_link"}) {
     const std::string file =
-        test::read_file(root + "/tests/golden/cases/" + name + "/robot.properties.yaml");
+        test::read_file(root + "/tests/golden/shared/" + name + "/robot.properties.yaml");
     EXPECT_NE(test::read_file(root + "/docs/verify.md").find("```yaml\n" + file + "```\n"),
               std::string::npos)
         << name;

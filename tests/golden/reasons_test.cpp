@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path cases = fs::path(CBC_SOURCE_DIR) / "tests/golden/cases";
+const fs::path shared = fs::path(CBC_SOURCE_DIR) / "tests/golden/shared";
 
 TEST(Reasons, AreTheSameInAllFormats) {
   const test::ScratchFolder folder;
@@ -22,7 +22,7 @@ TEST(Reasons, AreTheSameInAllFormats) {
   for (const std::string format : {"text", "json", "junit", "github", "html"}) {
     const std::string printed = format == "html" ? "text" : format;
     const Result result = run({{"solve", "mission.yaml", "--format", printed, "--html", page},
-                               cases / "reasons_request_ended"});
+                               shared / "reasons_request_ended"});
     const std::string report = format == "html" ? folder.read("page.html") : result.out;
     for (const std::string fact :
          {"MISSION stopped with event 3 at 100.000 s", "INSPECT does not fit: BATTERY is low",
@@ -36,7 +36,7 @@ TEST(Reasons, OfPropertiesNameWhatCameDueWithoutAnEvent) {
   const test::ScratchFolder folder;
   const Result result = run(
       {{"verify", "robot.properties.yaml", "--format", "github", "--html", folder / "page.html"},
-       cases / "verify_queue_idle"});
+       shared / "verify_queue_idle"});
   for (const std::string& report : {result.out, folder.read("page.html")}) {
     EXPECT_NE(report.find("GO_HOME is due, and cannot start by itself"), std::string::npos);
   }
@@ -63,7 +63,7 @@ TEST_F(ReplayReasons, NameWhatDiffersInALongList) {
   std::string events;
   for (int task = 0; task < 30; ++task) events += "{start: T" + std::to_string(task) + "}\n";
   const Result result =
-      replay(cases / "reasons_active_difference/robot.yaml", events, [](std::string log) {
+      replay(shared / "reasons_active_difference/robot.yaml", events, [](std::string log) {
         const std::size_t place = log.rfind(R"("T17":"BEHAVIOR_17")");
         return log.replace(place, 19, R"("T17":"BEHAVIOR_7")");
       });
@@ -78,7 +78,7 @@ TEST_F(ReplayReasons, NameWhatDiffersInALongList) {
 TEST_F(ReplayReasons, MayBeMissingAsInLogsOf0_1_0) {
   bool is_changed = false;
   const Result result = replay(
-      cases / "reasons_equal_priority/robot.yaml",
+      shared / "reasons_equal_priority/robot.yaml",
       "{start: REAR}\n{start: FRONT}\n{start: REPORT}\n{stop: FRONT}\n",
       [&](const std::string& log) {
         const std::regex cause(

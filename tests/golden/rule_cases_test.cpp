@@ -1,8 +1,7 @@
 // The cases lint_rule_*: one for each rule, with a file that breaks it, and no other rule, and a
 // file that nearly does.
 #include <algorithm>
-#include <filesystem>
-#include <sstream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,19 +10,18 @@
 
 #include "core/diagnostic/rules.h"
 #include "golden/process.h"
-#include "support/read_file.h"
+#include "support/scratch_folder.h"
+#include "support/sessions.h"
 
 namespace cbc::golden::rule_cases_test {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* near_miss = "nearly.yaml";
 
-fs::path case_of(const Rule& rule) {
+std::string case_of(const Rule& rule) {
   std::string name = "lint_rule_" + std::string(rule.name);
   std::replace(name.begin(), name.end(), '-', '_');
-  return fs::path(CBC_SOURCE_DIR) / "tests" / "golden" / "cases" / name;
+  return name;
 }
 
 /// "FILE RULE" of all findings of a report.
@@ -39,12 +37,14 @@ std::vector<std::string> findings_of(const nlohmann::json& report) {
 }
 
 TEST(RuleCases, BreakTheirRuleOnly) {
+  std::map<std::string, test::Case> cases;
+  for (const test::Case& one : test::read_cases()) cases.emplace(one.name, one);
   for (const Rule& rule : all_rules()) {
-    const fs::path folder = case_of(rule);
-    ASSERT_TRUE(fs::exists(folder / "command")) << "no case of rule " << rule.name;
-    Call call{{}, folder};
-    std::istringstream command(test::read_file(folder / "command"));
-    for (std::string word; command >> word;) call.arguments.push_back(word);
+    const auto found = cases.find(case_of(rule));
+    ASSERT_NE(found, cases.end()) << "no case of rule " << rule.name;
+    const test::ScratchFolder folder;
+    test::unpack(found->second, folder.path());
+    Call call{found->second.commands.front().arguments, folder.path()};
     ASSERT_EQ(std::count(call.arguments.begin(), call.arguments.end(), near_miss), 1) << rule.name;
     call.arguments.insert(call.arguments.end(), {"--format", "json"});
 

@@ -27,8 +27,8 @@ class Verify : public testing::Test {
     return run({arguments, CBC_SOURCE_DIR});
   }
 
-  const std::string catalog = "tests/golden/cases/verify_groups/catalog.yaml";
-  const std::string properties = "tests/golden/cases/verify_properties/robot.properties.yaml";
+  const std::string catalog = "tests/golden/shared/verify_groups/catalog.yaml";
+  const std::string properties = "tests/golden/shared/verify_properties/robot.properties.yaml";
   test::ScratchFolder scratch;
 };
 
@@ -52,7 +52,7 @@ TEST_F(Verify, WritesScriptsThatSolveRepeats) {
 }
 
 TEST_F(Verify, WritesTheScriptsOfOutcomes) {
-  const std::string cart = "tests/golden/cases/verify_outcomes/cart.properties.yaml";
+  const std::string cart = "tests/golden/shared/verify_outcomes/cart.properties.yaml";
   const Result result = verify({cart, "--outcomes", "--scripts", scratch.path()});
   EXPECT_EQ(result.status, 0) << result.err;
   const nlohmann::json report =
@@ -63,7 +63,7 @@ TEST_F(Verify, WritesTheScriptsOfOutcomes) {
       const std::string name = "cart.outcome-" + std::to_string(++outcomes) + ".mission.yaml";
       EXPECT_EQ(scratch.read(name), outcome["script"]);
       const Result solved =
-          run({{"solve", "tests/golden/cases/verify_outcomes/catalog.yaml", scratch / name},
+          run({{"solve", "tests/golden/shared/verify_outcomes/catalog.yaml", scratch / name},
                CBC_SOURCE_DIR});
       EXPECT_EQ(solved.status, 0) << solved.out << solved.err;
       EXPECT_NE(solved.out.find("expectations: 1 passed, 0 failed"), std::string::npos);
@@ -75,7 +75,7 @@ TEST_F(Verify, WritesTheScriptsOfOutcomes) {
 }
 
 TEST_F(Verify, HasAPageOfEffects) {
-  const std::string mower = "tests/golden/cases/verify_effects/catalog.yaml";
+  const std::string mower = "tests/golden/shared/verify_effects/catalog.yaml";
   const Result alone = verify({mower, "--effects"});
   const Result both = verify({mower, "--effects", "--html", scratch / "page.html"});
   EXPECT_EQ(both.status, 0);
@@ -83,7 +83,7 @@ TEST_F(Verify, HasAPageOfEffects) {
   const std::string page = scratch.read("page.html");
   EXPECT_EQ(page.rfind("<!DOCTYPE html>", 0), 0U);
   for (const char* const part :
-       {"<h1>Effects of faults: tests/golden/cases/verify_effects/catalog.yaml</h1>",
+       {"<h1>Effects of faults: tests/golden/shared/verify_effects/catalog.yaml</h1>",
         "<h2>MOW: 93.1 % with BLADES, WHEELS, RTK</h2>",
         "<tr><th scope=\"row\">degraded</th><td>26.6 %</td><td>28.5 %</td><td>RTK</td>"
         "<td>TRACKS, WIRE</td></tr>",
@@ -93,7 +93,7 @@ TEST_F(Verify, HasAPageOfEffects) {
 }
 
 TEST_F(Verify, HasAPageOfOverrides) {
-  const std::string drone = "tests/golden/cases/verify_overrides/catalog.yaml";
+  const std::string drone = "tests/golden/shared/verify_overrides/catalog.yaml";
   const Result result = verify({drone, "--overrides", "--html", scratch / "page.html"});
   EXPECT_EQ(result.status, 0);
   const std::string page = scratch.read("page.html");

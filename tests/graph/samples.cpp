@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -22,6 +23,7 @@
 #include "graph/hostile_catalog.h"
 #include "graph/report/graph_report.h"
 #include "support/read_file.h"
+#include "support/sessions.h"
 #include "support/shared_folder.h"
 
 namespace cbc::graph_test {
@@ -192,17 +194,24 @@ std::vector<Sample> samples_of_files() {
   const fs::path root(CBC_SOURCE_DIR);
   std::vector<fs::path> files;
   collect(root / "catalogs", files);
-  collect(root / "tests" / "golden", files);
+  collect(root / "tests" / "golden" / "shared", files);
   collect(test::shared_catalogs(), files);
   std::sort(files.begin(), files.end());
+  std::vector<std::pair<std::string, std::string>> texts;  // name and content
+  for (const fs::path& file : files) texts.emplace_back(file.string(), test::read_file(file));
+  for (const test::Case& one : test::read_cases()) {
+    for (const test::CaseFile& file : one.files) {
+      if (file.path.ends_with(".yaml"))
+        texts.emplace_back(one.name + "/" + file.path, file.content);
+    }
+  }
   std::set<std::string> known;
   std::vector<Sample> samples;
-  for (const fs::path& file : files) {
-    const std::string text = test::read_file(file);
+  for (const auto& [name, text] : texts) {
     if (!known.insert(text).second) continue;
-    const auto source = understand(text, file.string());
+    const auto source = understand(text, name);
     if (source == nullptr) continue;
-    std::vector<Sample> drawn = draw_all(*source, file.string());
+    std::vector<Sample> drawn = draw_all(*source, name);
     // A bad catalog has nodes beside those.
     if (!source->compiled.tasks.empty()) drawn.front().labels = labels_of(source->reading.catalog);
     std::move(drawn.begin(), drawn.end(), std::back_inserter(samples));

@@ -8,6 +8,7 @@ set -u
 schema=$(cd -- "$(dirname -- "$0")" && pwd)/junit.xsd
 program=$1
 cases=$2
+shared=$(cd -- "$(dirname -- "$0")/../golden/shared" && pwd)
 
 command -v xmllint >/dev/null || {
   echo "check.sh: skipped: there is no xmllint" >&2
@@ -46,17 +47,17 @@ check_report() {
 }
 
 checked=0
-for case in "$cases"/*/; do
+for case in "$cases"/*/ "$shared"/*/; do
   [ -f "$case/catalog.yaml" ] && [ -f "$case/script.yaml" ] || continue
   check_report "$case" solve catalog.yaml script.yaml --max-clock-events 100
 done
-check_report "$cases/verify_properties" verify robot.properties.yaml
-check_report "$cases/verify_properties" verify robot.properties.yaml --max-states 30
+check_report "$shared/verify_properties" verify robot.properties.yaml
+check_report "$shared/verify_properties" verify robot.properties.yaml --max-states 30
 check_report "$cases/verify_bad_properties" verify bad.yaml
 [ "$checked" -gt 50 ] || fail "only $checked reports were checked"
 
 # The check itself: what is not in the schema is found.
-write_report "$cases/expectation_fails" solve catalog.yaml script.yaml
+write_report "$shared/expectation_fails" solve catalog.yaml script.yaml
 sed 's/ failures="[0-9]*"//' "$report" >"$broken"
 xmllint --noout --schema "$schema" "$broken" 2>/dev/null && fail "a missing attribute is not found"
 sed 's/<testcase /<testcase line="1" /' "$report" >"$broken"

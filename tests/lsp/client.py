@@ -11,6 +11,7 @@ import urllib.parse
 
 PROGRAM = os.environ["CBC_PROGRAM"]
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
+CASES = pathlib.Path(os.environ["CBC_CASES"])  # of tests/golden, unpacked
 PATIENCE = 60  # seconds of a busy machine
 RECORD = os.environ.get("CBC_LSP_RECORD")  # a file that takes what servers say, for check_types.py
 # What editors can do.

@@ -12,7 +12,7 @@ import subprocess
 import tempfile
 import unittest
 
-from client import PATIENCE, SOURCE, Client, run_cbc, span, uri_of
+from client import CASES, PATIENCE, SOURCE, Client, run_cbc, span, uri_of
 
 ROBOT = """\
 situation:
@@ -259,9 +259,9 @@ class Protocol(LspTest):
 
 class Findings(LspTest):
     def test_the_corpus(self):
-        for name in ("catalogs", "docs", "tests/golden/cases"):
-            with Client(SOURCE / name) as client:
-                self.check_equal(client, SOURCE / name)
+        for folder in (SOURCE / "catalogs", SOURCE / "docs", CASES):
+            with Client(folder) as client:
+                self.check_equal(client, folder)
 
     def test_versions_and_closed_files(self):
         client = self.start()
@@ -866,7 +866,7 @@ class WholeFiles(LspTest):
             self.assertEqual(bool(client.of("codeAction", self.robot, range=found["range"], context=asked)), is_meant)
 
     def test_older_format(self):
-        old = (SOURCE / "tests" / "golden" / "cases" / "graph_older_format" / "catalog.yaml").read_text()
+        old = (SOURCE / "tests" / "golden" / "shared" / "graph_older_format" / "catalog.yaml").read_text()
         client = self.start()
         client.open(self.robot, old)
         client.settle()

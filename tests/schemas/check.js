@@ -1,4 +1,4 @@
-// check.js PROGRAM: validates what the program writes as JSON with the schemas; see check.sh.
+// check.js PROGRAM CASES: validates what the program writes as JSON with the schemas; see check.sh.
 'use strict';
 
 const path = require('path');
@@ -9,7 +9,7 @@ const {goldenTexts, programTexts} = require('./texts');
 const {idOf, inputs, makeValidator, readSchemas} = require('./validator');
 
 const root = path.join(__dirname, '..', '..');
-const program = path.resolve(process.argv[2]);
+const [program, cases] = process.argv.slice(2).map((name) => path.resolve(name));
 
 function refuse(reason) {
   console.error(`check.js: ${reason}`);
@@ -94,7 +94,7 @@ function checkLies(documents) {
 const examples = [...schemas].flatMap(([name, schema]) => [...examplesIn(name, schema)]);
 checkValid(examples);
 
-const documents = [...goldenTexts(root), ...programTexts(root, program)].flatMap(documentsIn);
+const documents = [...goldenTexts(cases), ...programTexts(root, cases, program)].flatMap(documentsIn);
 checkValid(documents);
 const least = {
   'catalog-dump': 100,

@@ -1,4 +1,4 @@
-// check_inputs.js PROGRAM: validates catalogs, scripts and property files with the schemas, and
+// check_inputs.js PROGRAM CASES: validates catalogs, scripts and property files with the schemas, and
 // compares with what lint finds in them; see check.sh.
 //
 // A schema may refuse only what lint reports as an error, or an unknown key, which is a warning in a
@@ -14,7 +14,7 @@ const {inputs, idOf, makeValidator, readSchemas} = require('./validator');
 const {readYaml} = require('./yaml');
 
 const root = path.join(__dirname, '..', '..');
-const program = path.resolve(process.argv[2]);
+const [program, cases] = process.argv.slice(2).map((name) => path.resolve(name));
 
 const expressible = new Set([
   'duplicate-key',
@@ -28,11 +28,11 @@ const expressible = new Set([
 
 /** Mistakes that break these rules, by file, and why a schema may not see them. */
 const unseen = {
-  'tests/golden/cases/catalog_both_flags_by_default/catalog.yaml': 'the task says only one of the two',
-  'tests/golden/cases/catalog_deep_nesting/catalog.yaml': 'a reader may bear more',
-  'tests/golden/cases/lint_no_property/empty.yaml': 'a list to be filled is a warning',
-  'tests/golden/cases/lint_rule_on_request_and_reactive/catalog.yaml': 'the task says only one of the two',
-  'tests/golden/cases/verify_no_property/empty.yaml': 'a list to be filled is a warning',
+  'cases/catalog_both_flags_by_default/catalog.yaml': 'the task says only one of the two',
+  'cases/catalog_deep_nesting/catalog.yaml': 'a reader may bear more',
+  'cases/lint_no_property/empty.yaml': 'a list to be filled is a warning',
+  'cases/lint_rule_on_request_and_reactive/catalog.yaml': 'the task says only one of the two',
+  'cases/verify_no_property/empty.yaml': 'a list to be filled is a warning',
 };
 
 function refuse(reason) {
@@ -59,7 +59,7 @@ function mayBeRefused(findings) {
 function checkFiles() {
   const counts = {catalog: 0, script: 0, properties: 0, refused: 0};
   const broken = new Set();
-  for (const {source, schema, text, findings} of filesOfRepository(root, linter)) {
+  for (const {source, schema, text, findings} of filesOfRepository(root, cases, linter)) {
     const reason = refusal(schema, text);
     if (reason && !mayBeRefused(findings)) {
       refuse(`${source} is refused (${reason}), but lint is content`);

@@ -53,12 +53,12 @@ function isUtf8(file) {
 }
 
 /** Those in the folders with catalogs, scripts and property files. */
-function* yamlFiles(root) {
-  for (const folder of ['catalogs', 'tests/golden', 'tests/browser']) {
-    for (const file of filesIn(path.join(root, folder), '.yaml', '.yml').filter(isUtf8)) {
+function* yamlFiles(root, cases) {
+  for (const folder of [path.join(root, 'catalogs'), path.join(root, 'tests/browser'), cases]) {
+    for (const file of filesIn(folder, '.yaml', '.yml').filter(isUtf8)) {
       const text = fs.readFileSync(file, 'utf8');
       const schema = schemaOf(file, text);
-      yield {source: path.relative(root, file), schema, text, catalog: catalogOf(file, text)};
+      yield {source: path.relative(path.dirname(folder), file), schema, text, catalog: catalogOf(file, text)};
     }
   }
 }
@@ -93,8 +93,8 @@ function* excerpts(root) {
 }
 
 /** {source, schema, text, findings} of all that there is, but for what lint cannot look at. */
-function filesOfRepository(root, linter) {
-  const items = [...yamlFiles(root), ...examples(linter)];
+function filesOfRepository(root, cases, linter) {
+  const items = [...yamlFiles(root, cases), ...examples(linter)];
   const catalogs = items.filter((item) => item.schema === 'catalog');
   const findings = linter.ofCatalogs(catalogs.map((item) => item.text));
   catalogs.forEach((item, place) => (item.findings = findings[place]));

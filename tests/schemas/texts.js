@@ -31,11 +31,9 @@ function label(source, text) {
 }
 
 /** The expected output of the golden cases. */
-function* goldenTexts(root) {
-  const cases = path.join(root, 'tests', 'golden', 'cases');
-  for (const name of fs.readdirSync(cases).sort()) {
-    const file = path.join(cases, name, 'stdout');
-    if (fs.existsSync(file)) yield* label(file, fs.readFileSync(file, 'utf8'));
+function* goldenTexts(cases) {
+  for (const {case: name, commands} of JSON.parse(fs.readFileSync(path.join(cases, 'cases.json'), 'utf8'))) {
+    for (const {stdout} of commands) yield* label(`case ${name}`, stdout);
   }
 }
 
@@ -76,7 +74,7 @@ class Runs {
     const limits = ['--max-states', '3000', '--format', 'json'];
     yield* this.labelled('verify', catalog, ...limits);
     const properties = catalog.replace(/yaml$/, 'properties.yaml');
-    if (fs.existsSync(path.join(this.root, properties))) {
+    if (fs.existsSync(path.resolve(this.root, properties))) {
       yield* this.labelled('verify', properties, ...limits);
       yield* this.labelled('tune', '--all-states', properties, ...limits);
     }
@@ -136,7 +134,7 @@ function namesIn(dump) {
 const swept = new Set([
   'catalogs/quadrotor.yaml',
   'catalogs/target-following.yaml',
-  'tests/golden/cases/rejected/catalog.yaml',
+  'tests/golden/shared/rejected/catalog.yaml',
 ]);
 
 /** What the program makes of a catalog, and of the scripts that belong to it. */
@@ -146,7 +144,7 @@ function* textsOfCatalog(runs, file) {
   yield dump;
   const folder = path.dirname(file);
   for (const script of [file.replace(/yaml$/, 'mission.yaml'), `${folder}/script.yaml`]) {
-    if (fs.existsSync(path.join(runs.root, script))) {
+    if (fs.existsSync(path.resolve(runs.root, script))) {
       yield* runs.solve(file, script, namesIn(dump.text));
       yield* runs.marks(file, script);
       yield* runs.tune(file, script);
@@ -160,11 +158,11 @@ function* textsOfCatalog(runs, file) {
 }
 
 /** What the program makes of all catalogs in the repository. */
-function* programTexts(root, program) {
+function* programTexts(root, cases, program) {
   const scratch = fs.mkdtempSync(path.join(os.tmpdir(), 'cbc-schemas-'));
   try {
     const runs = new Runs(root, program, scratch);
-    const [lint] = runs.labelled('lint', '--format', 'json', 'catalogs', 'tests/golden/cases');
+    const [lint] = runs.labelled('lint', '--format', 'json', 'catalogs', 'tests/golden/shared', cases);
     yield lint;
     const catalogs = JSON.parse(lint.text).files.filter((file) => file.summary !== null);
     for (const {file} of catalogs) yield* textsOfCatalog(runs, file);

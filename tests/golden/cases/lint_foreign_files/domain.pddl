@@ -1,3 +1,0 @@
-(define (domain simple)
- (:requirements :strips :typing)
- (:types robot room))
