@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <fstream>
 #include <set>
 #include <string>
 #include <string_view>
@@ -15,6 +18,8 @@
 #include "core/script/reader.h"
 #include "core/yaml/document.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "support/lines.h"
+#include "support/read_file.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::rules_test {
@@ -31,8 +36,9 @@ void lint_script(const yaml::Document& document, Diagnostics& diagnostics) {
   static_cast<void>(read_script(document, script_catalog(), Severity::error, diagnostics));
 }
 
-/// The rules that a text breaks, which is an example of `rule`.
-Names rules_found(const Rule& rule, std::string_view text, const LintOptions& options = {}) {
+/// The findings of a text, which is an example of `rule`.
+std::vector<Diagnostic> findings_of(const Rule& rule, std::string_view text,
+                                    const LintOptions& options = {}) {
   Diagnostics diagnostics;
   const auto document = yaml::parse(text, "example.yaml", diagnostics);
   bool is_complete = false;
@@ -50,11 +56,29 @@ Names rules_found(const Rule& rule, std::string_view text, const LintOptions& op
   const CommentedFile file{"example.yaml", text, document.get(), is_complete};
   SeveritySettings settings;
   if (rule.is_off) settings.set(rule, RuleSetting::note);
+  return control_findings(diagnostics.release(), file, settings);
+}
+
+/// The rules that it breaks.
+Names rules_found(const Rule& rule, std::string_view text, const LintOptions& options = {}) {
   Names found;
-  for (const Diagnostic& finding : control_findings(diagnostics.release(), file, settings)) {
-    found.insert(finding.rule);
-  }
+  for (const Diagnostic& finding : findings_of(rule, text, options)) found.insert(finding.rule);
   return found;
+}
+
+/// What the example of a rule is told.
+std::string messages_of(const Rule& rule) {
+  LintOptions options;
+  if (rule.name == rule::undecided) options.max_nodes = 1;
+  std::string text = "## " + std::string(rule.name) + "\n";
+  for (const Diagnostic& finding : findings_of(rule, rule.example, options)) {
+    text += format_place(finding.file, finding.range.begin) + ": " +
+            std::string(name_of(finding.severity)) + ": " + finding.message + "\n";
+    for (const Note& note : finding.notes) {
+      text += "  " + format_place(note.file, note.range.begin) + ": " + note.message + "\n";
+    }
+  }
+  return text;
 }
 
 std::vector<std::string_view> names_of_rules() {
@@ -194,6 +218,20 @@ std::string test_name(const testing::TestParamInfo<std::string_view>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Rules, EveryRule, testing::ValuesIn(names_of_rules()), test_name);
+
+/// CBC_UPDATE_GOLDEN=1 writes the file anew; its difference is then to be read.
+TEST(RuleExamples, AreToldWhatIsWrong) {
+  std::string messages;
+  for (const Rule& rule : all_rules()) messages += messages_of(rule) + "\n";
+  const std::string path = CBC_SOURCE_DIR "/tests/golden/rules.txt";
+  if (std::getenv("CBC_UPDATE_GOLDEN") != nullptr) std::ofstream(path) << messages;
+  const std::vector<std::string> found = test::lines_of(messages);
+  const std::vector<std::string> expected = test::lines_of(test::read_file(path));
+  for (std::size_t i = 0; i < std::min(found.size(), expected.size()); ++i) {
+    ASSERT_EQ(found[i], expected[i]) << path << ":" << i + 1;
+  }
+  EXPECT_EQ(found.size(), expected.size());
+}
 
 TEST(RuleExamples, AreDecidedWithTheUsualLimit) {
   const Rule& undecided = *find_rule(rule::undecided);
