@@ -27,6 +27,9 @@ SituationSpace::SituationSpace(const CompiledCatalog& catalog, const SituationPa
   for (const SituationPart::Own& own : given.behaviors) {
     denied_[own.behavior] = own.available ? 0 : 1;
   }
+  for (BehaviorId behavior(0); behavior < denied_.size(); ++behavior) {
+    if (denied_[behavior] != 0) denied_behaviors_.push_back(behavior);
+  }
   std::iota(ties_.begin(), ties_.end(), 0U);
   for (const SituationPart& part : never) add_never(part);
 }
@@ -69,10 +72,15 @@ std::uint32_t SituationSpace::tie_of(std::uint32_t variable) const {
   return variable;
 }
 
-void SituationSpace::restrict(BehaviorId behavior, ValueSets& sets) const {
+void SituationSpace::restrict(BehaviorId behavior, ValueSets& sets,
+                              const ConditionSet* only) const {
   const auto fitting = catalog_.fitting_values_of(behavior);
   for (auto next = fitting.begin(); next != fitting.end();) {
     const std::uint32_t variable = next->variable;
+    if (only != nullptr && (*only)[place_of(catalog_, *next)] == 0) {
+      ++next;
+      continue;
+    }
     for (std::uint32_t value = 0; value < catalog_.variables[variable].value_count; ++value) {
       const bool fits = next != fitting.end() && next->variable == variable && next->value == value;
       if (fits) {
@@ -91,8 +99,7 @@ void SituationSpace::restrict(VariableValue value, ValueSets& sets) const {
   }
 }
 
-bool SituationSpace::may_fit(BehaviorId behavior, const ValueSets& sets) const {
-  const auto fitting = catalog_.fitting_values_of(behavior);
+bool SituationSpace::may_fit(std::span<const FittingValue> fitting, const ValueSets& sets) const {
   for (auto next = fitting.begin(); next != fitting.end();) {
     const std::uint32_t variable = next->variable;
     bool fits = false;

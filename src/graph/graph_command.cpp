@@ -14,10 +14,10 @@
 
 #include <fmt/core.h>
 
+#include "ask/together.h"
 #include "commands.h"
 #include "core/check/check.h"
 #include "core/check/controls.h"
-#include "core/check/together.h"
 #include "core/command_line/command_line.h"
 #include "core/files/file_set.h"
 #include "core/files/missions.h"
@@ -508,7 +508,9 @@ int draw(const draw::CatalogGraph& graph, const std::optional<draw::Moment>& mom
 std::string pairs_to_text(const CompiledCatalog& catalog, const SeveritySettings& settings,
                           bool is_json, const Style& style) {
   TogetherOptions options;
-  options.never_together = settings.never_together();
+  for (const NeverTogether& list : settings.never_together()) {
+    options.never_together.push_back(list.tasks);
+  }
   const TogetherTable table = make_together_table(catalog, options);
   return is_json ? together_json(catalog, table) : together_text(catalog, table, style);
 }

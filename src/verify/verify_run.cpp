@@ -11,7 +11,7 @@
 
 #include <fmt/core.h>
 
-#include "core/check/together.h"
+#include "ask/together.h"
 #include "core/command_line/command_line.h"
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"

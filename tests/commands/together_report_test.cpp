@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/check/together.h"
+#include "ask/together.h"
 #include "graph/report/tables.h"
 #include "lint/report/lint_report.h"
 #include "unit/compiled_fixture.h"

@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "ask/together.h"
 #include "core/check/check.h"
-#include "core/check/together.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/yaml/document.h"
 #include "demand.h"

@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include "ask/together.h"
 #include "core/check/check.h"
-#include "core/check/together.h"
 #include "core/compile/compile.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/yaml/document.h"

@@ -6,7 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/check/proofs.h"
+#include "ask/ask.h"
+#include "ask/liveness.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::assignment_search_test {
@@ -26,7 +27,7 @@ TEST(AssignmentSearch, BoundsOfPerformancesCount) {
     }
     text += "}\n";
   }
-  AssignmentSearch search(test::compile_text(text), most_nodes);
+  AssignmentSearch search(test::compile_text(text), most_nodes, Effort(most_effort_of_assignments));
   const std::vector<TaskId> tasks = tasks_by_level(search.catalog());
   std::size_t asked = 0;
   while (asked < tasks.size() && !search.is_exhausted()) {
@@ -43,14 +44,13 @@ TEST(AssignmentSearch, ConditionsCount) {
   for (int behavior = 0; behavior < 20'000; ++behavior) {
     text += "- {behavior: B" + std::to_string(behavior) + ", task: T, situation: {V: true}}\n";
   }
-  AssignmentSearch search(test::compile_text(text), most_nodes);
-  Assignment solution;
-  const std::vector<std::uint32_t> fits = {0};
-  const std::vector<std::uint32_t> does_not_fit = {1};
-  EXPECT_EQ(search.find(ValueId(0), {}, solution, fits), Feasibility::yes);
+  AssignmentSearch search(test::compile_text(text), most_nodes, Effort(most_effort_of_assignments));
+  const SituationSpace space(search.catalog(), {}, {});
+  Ask ask(search, space);
+  const Asked runs_with_first = {{GroupId(0), {{Demand::Kind::has, TaskId(0), 0}}}};
+  EXPECT_EQ(ask.find(runs_with_first, {1, 0}), Feasibility::yes);
   int asked = 0;
-  while (asked < 10'000 && search.find(ValueId(0), {}, solution, does_not_fit) == Feasibility::no)
-    ++asked;
+  while (asked < 10'000 && ask.find(runs_with_first, {0, 1}) == Feasibility::no) ++asked;
   EXPECT_TRUE(search.is_exhausted());
   EXPECT_GT(asked, 1000);
 }

@@ -27,17 +27,17 @@ class RedundantMinimumCheck {
     RelevantTasks relevant(catalog_, catalog_.tasks[id].group);
     relevant.add(id);
     const Task& task = proof_.task(id);
-    report({{id, none}}, none, {id, minimum}, relevant, task.minimum_performance_range,
-           "task " + quote(task.name) + " runs");
+    report({{Demand::Kind::run, id, none}}, none, {id, minimum}, relevant,
+           task.minimum_performance_range, "task " + quote(task.name) + " runs");
   }
 
   void check_behavior(BehaviorId id) {
     if (proof_.liveness().of_behavior(id) != Liveness::State::live) return;
-    std::vector<ProofContext::Goal> goals;
+    Demands goals;
     RelevantTasks relevant(catalog_, catalog_.group_of(id));
     for (const ValueId value : catalog_.performs[id]) {
       const TaskId task = catalog_.task_of(value);
-      goals.push_back({task, value - catalog_.values.begin[task]});
+      goals.push_back(proof_.has(value));
       relevant.add(task);
     }
     for (const CompiledRequirement& requirement : catalog_.requirements[id]) {
@@ -57,9 +57,8 @@ class RedundantMinimumCheck {
 
   /// Reports a minimum if the task reaches it wherever one of the goals is reached under the other
   /// constraints. `owner`: the behavior that has it, or none.
-  void report(const std::vector<ProofContext::Goal>& goals, BehaviorId owner,
-              const Minimum& minimum, RelevantTasks relevant, const Range& range,
-              const std::string& condition) {
+  void report(const Demands& goals, BehaviorId owner, const Minimum& minimum,
+              RelevantTasks relevant, const Range& range, const std::string& condition) {
     const std::string task = quote(proof_.task(minimum.task).name);
     switch (is_missed(goals, minimum, other_constraints(owner, minimum, relevant))) {
       case Feasibility::yes:
@@ -90,18 +89,14 @@ class RedundantMinimumCheck {
   }
 
   /// Whether the task can run below the minimum while one of the goals is reached.
-  Feasibility is_missed(const std::vector<ProofContext::Goal>& goals, const Minimum& minimum,
+  Feasibility is_missed(const Demands& goals, const Minimum& minimum,
                         const std::vector<Reason>& constraints) {
     if (constraints.size() > most_constraints) return Feasibility::unknown;
-    Feasibility answer = Feasibility::no;
-    for (const ProofContext::Goal& goal : goals) {
-      ConflictSearch problem = proof_.relaxed(goal);
-      problem.keep_below(minimum.task, minimum.performance);
-      const Feasibility one = proof_.solve(problem, constraints);
-      if (one == Feasibility::yes) return one;
-      if (one == Feasibility::unknown) answer = one;
+    RelaxedQuestions questions(proof_.space(), proof_.effort());
+    for (const Demand& goal : goals) {
+      questions.add({{catalog_.tasks[goal.task].group, {goal}, minimum.task, minimum.performance}});
     }
-    return answer;
+    return questions.solve(constraints);
   }
 
   ProofContext& proof_;

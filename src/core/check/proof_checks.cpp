@@ -52,7 +52,7 @@ class DeadCheck {
          ++value) {
       if (requires_only_dead_tasks(value)) return;
     }
-    const ProofContext::Goal goal{task, none};
+    const Demand goal{Demand::Kind::run, task, none};
     const std::vector<Reason> constraints = unexplained_constraints({&goal, 1}, none);
     if (is_reachable({&goal, 1}, constraints)) return;
     const std::vector<Note> notes = find_reason({&goal, 1}, constraints);
@@ -86,11 +86,8 @@ class DeadCheck {
       is_explained_below_[catalog_.performs[id][0]] = true;
       return;
     }
-    std::vector<ProofContext::Goal> goals;
-    for (const ValueId value : catalog_.performs[id]) {
-      const TaskId task = catalog_.task_of(value);
-      goals.push_back({task, value - catalog_.values.begin[task]});
-    }
+    Demands goals;
+    for (const ValueId value : catalog_.performs[id]) goals.push_back(proof_.has(value));
     const std::vector<Reason> constraints = unexplained_constraints(goals, id);
     if (is_explained_elsewhere(id, goals, constraints)) return;
     const std::vector<Note> notes = find_reason(goals, constraints);
@@ -103,12 +100,12 @@ class DeadCheck {
 
   /// Whether another finding, on one of its tasks or on something it needs, is why a behavior is
   /// dead: it may come to life once that is mended.
-  bool is_explained_elsewhere(BehaviorId id, std::span<const ProofContext::Goal> goals,
+  bool is_explained_elsewhere(BehaviorId id, std::span<const Demand> goals,
                               const std::vector<Reason>& constraints) {
     bool is_explained = false;
     for (std::size_t i = 0; i < goals.size(); ++i) {
       const ValueId value = catalog_.performs[id][i];
-      if (is_reachable(goals.subspan(i, 1), constraints)) is_explained_below_[value] = true;
+      if (is_reachable({&goals[i], 1}, constraints)) is_explained_below_[value] = true;
       is_explained |= is_explained_value(value);
     }
     return is_explained;
@@ -139,31 +136,21 @@ class DeadCheck {
     return std::adjacent_find(used_cliques_.begin(), used_cliques_.end()) == used_cliques_.end();
   }
 
-  bool is_reachable(std::span<const ProofContext::Goal> goals,
-                    const std::vector<Reason>& constraints) {
-    if (constraints.size() > most_constraints) return false;
-    std::vector<ConflictSearch> problems = proof_.relaxed(goals);
-    return proof_.solve(problems, constraints) == Feasibility::yes;
+  bool is_reachable(std::span<const Demand> goals, const std::vector<Reason>& constraints) {
+    return constraints.size() <= most_constraints &&
+           proof_.relaxed(goals).solve(constraints) == Feasibility::yes;
   }
 
   /// A minimal conflict set: why none of the goals can be reached. Empty if it takes too long to
   /// find.
-  std::vector<Note> find_reason(std::span<const ProofContext::Goal> goals,
+  std::vector<Note> find_reason(std::span<const Demand> goals,
                                 const std::vector<Reason>& constraints) {
-    if (constraints.size() > most_constraints) return {};
-    std::vector<ConflictSearch> problems = proof_.relaxed(goals);
-    if (proof_.solve(problems, constraints) != Feasibility::no) return {};
-    const std::vector<Reason> reason =
-        minimal_conflict_set(constraints, [&](std::span<const Reason> some) {
-          return proof_.solve(problems, some) != Feasibility::no;
-        });
-    return proof_.notes_of(reason);
+    return proof_.notes_of(proof_.relaxed(goals).conflict(constraints));
   }
 
   /// The constraints that bear on the goals, except those of what is explained already. `own`: the
   /// behavior in question, if there is one.
-  std::vector<Reason> unexplained_constraints(std::span<const ProofContext::Goal> goals,
-                                              BehaviorId own) {
+  std::vector<Reason> unexplained_constraints(std::span<const Demand> goals, BehaviorId own) {
     RelevantTasks relevant(catalog_, catalog_.tasks[goals.front().task].group);
     if (own == none) {
       relevant.add(goals.front().task);
@@ -174,7 +161,7 @@ class DeadCheck {
     }
     relevant.close();
     const std::vector<BehaviorId> behaviors = relevant.behaviors();
-    for (const ProofContext::Goal& goal : goals) relevant.add(goal.task);
+    for (const Demand& goal : goals) relevant.add(goal.task);
 
     std::vector<Reason> reasons;
     for (const TaskId task : relevant.tasks()) {
@@ -194,14 +181,14 @@ class DeadCheck {
 
   /// Whether the requirements of a behavior no longer count as reasons: it is dead, which is
   /// explained, or it performs a dead task that the goals may require.
-  [[nodiscard]] bool is_explained(BehaviorId behavior, std::span<const ProofContext::Goal> goals,
+  [[nodiscard]] bool is_explained(BehaviorId behavior, std::span<const Demand> goals,
                                   const RelevantTasks& relevant) const {
     if (proof_.is_explained_behavior(behavior)) return true;
     const auto performed = catalog_.performs[behavior];
     const auto is_below = [&](TaskId task) {
       return relevant.contains(task) &&
              std::none_of(goals.begin(), goals.end(),
-                          [task](const ProofContext::Goal& goal) { return goal.task == task; });
+                          [task](const Demand& goal) { return goal.task == task; });
     };
     return std::any_of(performed.begin(), performed.end(),
                        [&](ValueId value) {
@@ -370,7 +357,10 @@ class OnRequestCheck {
   bool is_possible(BehaviorId behavior, const std::vector<TaskId>& closed) {
     const auto values = catalog_.performs[behavior];
     return std::any_of(values.begin(), values.end(), [&](ValueId value) {
-      return proof_.search().find(value, closed, solution_) == Feasibility::yes;
+      Demands demands{proof_.has(value)};
+      for (const TaskId task : closed) demands.push_back({Demand::Kind::stop, task, none});
+      return proof_.search().find(catalog_.group_of(behavior), demands, solution_) ==
+             Feasibility::yes;
     });
   }
 
@@ -409,7 +399,7 @@ class RedundancyCheck {
     if (proof_.liveness().of_behavior(id) != Liveness::State::live) return;
     check_repetitions(proof_.behavior(id));
     if (catalog_.requirements[id].size() < 2) return;
-    if (proof_.is_exhausted()) {
+    if (proof_.effort().left() == 0) {
       note_undecided(id, catalog_.requirements[id].front());
       return;
     }
@@ -458,7 +448,7 @@ class RedundancyCheck {
       all.add(requirement.task);
     }
     all.close();
-    proof_.spend(4 * all.tasks().size());
+    proof_.effort().spend(4 * all.tasks().size());
     RelevantTasks led_to(catalog_, catalog_.group_of(id));
     for (const TaskId task : all.tasks()) {
       for (const Arc& arc : catalog_.arcs[task]) led_to.add(arc.target);
@@ -475,25 +465,22 @@ class RedundancyCheck {
     for (const ValueId value : catalog_.performs[id]) relevant.add(catalog_.task_of(value));
     relevant.close();
     std::vector<Reason> others = constraints_on(catalog_, relevant);
-    proof_.spend(4 * others.size());
-    if (proof_.is_exhausted() || others.size() > most_constraints) {
+    proof_.effort().spend(4 * others.size());
+    if (proof_.effort().left() == 0 || others.size() > most_constraints) {
       note_undecided(id, requirement);
       return;
     }
     std::erase_if(others, [&](const Reason& reason) {
       return reason.behavior == id && reason.task == requirement.task;
     });
-    const Feasibility answer = can_be_broken(id, requirement, others);
+    RelaxedQuestions broken = broken_by(id, requirement);
+    const Feasibility answer = broken.solve(others);
     if (answer == Feasibility::unknown) note_undecided(id, requirement);
     if (answer != Feasibility::no || is_margin(id, requirement, others)) return;
-
-    const std::vector<Reason> reason =
-        minimal_conflict_set(others, [&](std::span<const Reason> some) {
-          return can_be_broken(id, requirement, some) != Feasibility::no;
-        });
     const Behavior& behavior = proof_.behavior(id);
     const TaskIndex task = catalog_.tasks[requirement.task].catalog_index;
-    report(behavior, strongest_requirement(behavior, task), proof_.notes_of(reason), {});
+    report(behavior, strongest_requirement(behavior, task),
+           proof_.notes_of(broken.conflict(others)), {});
   }
 
   /// What the behavior requires apart from a task, with all that is required in turn.
@@ -506,29 +493,27 @@ class RedundancyCheck {
     return relevant;
   }
 
-  /// Whether the behavior can be active with the requirement not satisfied.
-  Feasibility can_be_broken(BehaviorId id, const CompiledRequirement& requirement,
-                            std::span<const Reason> others) {
-    Feasibility answer = Feasibility::no;
-    const auto add = [&answer](Feasibility one) {
-      if (one == Feasibility::yes || answer == Feasibility::no) answer = one;
-    };
-    Reason closed;
-    closed.kind = Reason::Kind::on_request;
-    closed.task = requirement.task;
-    std::vector<Reason> without(others.begin(), others.end());
-    without.push_back(closed);
+  /// Whether the behavior can be active with the requirement not satisfied: the task does not run,
+  /// or it runs below the minimum.
+  RelaxedQuestions broken_by(BehaviorId id, const CompiledRequirement& requirement) {
+    RelaxedQuestions questions = low_performances(id, requirement);
     for (const ValueId value : catalog_.performs[id]) {
-      const TaskId task = catalog_.task_of(value);
-      ConflictSearch problem = proof_.relaxed({task, value - catalog_.values.begin[task]});
-      add(proof_.solve(problem, without));
-      if (answer == Feasibility::yes) return answer;
-      if (requirement.minimum_performance == 0) continue;
-      problem.keep_below(requirement.task, requirement.minimum_performance);
-      add(proof_.solve(problem, others));
-      if (answer == Feasibility::yes) return answer;
+      questions.add({{catalog_.group_of(id),
+                      {proof_.has(value), {Demand::Kind::stop, requirement.task, none}}}});
     }
-    return answer;
+    return questions;
+  }
+
+  RelaxedQuestions low_performances(BehaviorId id, const CompiledRequirement& requirement) {
+    RelaxedQuestions questions(proof_.space(), proof_.effort());
+    if (requirement.minimum_performance == 0) return questions;
+    for (const ValueId value : catalog_.performs[id]) {
+      questions.add({{catalog_.group_of(id),
+                      {proof_.has(value)},
+                      requirement.task,
+                      requirement.minimum_performance}});
+    }
+    return questions;
   }
 
   /// Whether the task performs well enough whatever minimums there are: then the minimum is a
@@ -538,13 +523,7 @@ class RedundancyCheck {
     if (requirement.minimum_performance == 0) return false;
     std::erase_if(others,
                   [](const Reason& reason) { return reason.kind == Reason::Kind::performance; });
-    const auto values = catalog_.performs[id];
-    return std::all_of(values.begin(), values.end(), [&](ValueId value) {
-      const TaskId task = catalog_.task_of(value);
-      ConflictSearch problem = proof_.relaxed({task, value - catalog_.values.begin[task]});
-      problem.keep_below(requirement.task, requirement.minimum_performance);
-      return proof_.solve(problem, others) == Feasibility::no;
-    });
+    return low_performances(id, requirement).solve(others) == Feasibility::no;
   }
 
   void report(const Behavior& behavior, const Requirement& requirement, std::vector<Note> notes,
@@ -595,9 +574,10 @@ void check_on_request_requirements(const Catalog& catalog, const std::vector<boo
 void check_by_proof(const CatalogReading& reading, const CompiledCatalog& compiled,
                     const std::vector<bool>& conflicts, const LintOptions& options,
                     Reporter& reporter) {
-  AssignmentSearch search(compiled, options.max_nodes, options.is_stopped);
+  AssignmentSearch search(compiled, options.max_nodes,
+                          Effort(most_effort_of_assignments, options.is_stopped));
   const Liveness liveness(search);
-  ProofContext proof(reading.catalog, search, liveness, options.max_nodes, reporter);
+  ProofContext proof(reading.catalog, search, liveness, options, reporter);
   // Special cases first: what they explain is not explained again.
   for (std::size_t behavior = 0; behavior < conflicts.size(); ++behavior) {
     if (conflicts[behavior]) proof.explain_behavior(compiled.behavior_ids[behavior]);

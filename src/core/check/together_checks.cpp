@@ -4,12 +4,13 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "ask/together.h"
 #include "core/check/proofs.h"
-#include "core/check/together.h"
 #include "core/diagnostic/rules.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
@@ -22,7 +23,10 @@ namespace {
 class SituationCheck {
  public:
   explicit SituationCheck(ProofContext& proof)
-      : proof_(proof), catalog_(proof.compiled()), is_dead_(catalog_.tasks.size(), false) {}
+      : proof_(proof),
+        catalog_(proof.compiled()),
+        ask_(proof.search(), proof.space()),
+        is_dead_(catalog_.tasks.size(), false) {}
 
   void check() {
     if (catalog_.variables.empty()) return;
@@ -32,8 +36,7 @@ class SituationCheck {
  private:
   void check_task(TaskId task) {
     if (proof_.liveness().of_task(task) == Liveness::State::dead) return;
-    const std::vector<std::uint32_t>& variables = variables_of_task(task);
-    if (variables.empty()) return;
+    if (variables_of(catalog_, {&task, 1}).empty()) return;
     std::vector<BehaviorId> dead;
     const std::span<const Value> values = catalog_.values[task];
     for (const Value& value : values) {
@@ -43,7 +46,7 @@ class SituationCheck {
       dead.push_back(value.behavior);
     }
     if (dead.empty()) return;
-    is_dead_[task] = !can_run(task, variables);
+    is_dead_[task] = !is_possible({Demand::Kind::run, task, none});
     if (is_dead_[task]) {
       if (!std::all_of(dead.begin(), dead.end(), [this](BehaviorId id) { return is_told(id); })) {
         report_task(task);
@@ -66,58 +69,45 @@ class SituationCheck {
                [this](const CompiledRequirement& required) { return is_dead_[required.task]; });
   }
 
-  [[nodiscard]] bool can_run(TaskId task, const std::vector<std::uint32_t>& variables) {
-    return ask_in_situations(catalog_, variables, [&](std::span<const std::uint32_t> situation) {
-             return proof_.search().find_running({&task, 1}, situation, solution_);
-           }) != Feasibility::no;
+  /// True if that is not known.
+  [[nodiscard]] bool is_possible(const Demand& demand) {
+    return ask_.find(asked_of(catalog_, {&demand, 1})) != Feasibility::no;
   }
 
-  [[nodiscard]] const std::vector<std::uint32_t>& variables_of_task(TaskId task) {
-    const auto [entry, is_new] = variables_.try_emplace(task);
-    if (is_new) entry->second = variables_of(catalog_, {&task, 1});
-    return entry->second;
-  }
-
-  /// For any of its tasks. True if that is not known.
+  /// For any of its tasks.
   [[nodiscard]] bool can_be_active(BehaviorId behavior) {
     const auto values = catalog_.performs[behavior];
-    return std::any_of(values.begin(), values.end(), [&](ValueId value) {
-      const TaskId task = catalog_.task_of(value);
-      return ask_in_situations(catalog_, variables_of_task(task),
-                               [&](std::span<const std::uint32_t> situation) {
-                                 return proof_.search().find(value, {}, solution_, situation);
-                               }) != Feasibility::no;
-    });
+    return std::any_of(values.begin(), values.end(),
+                       [&](ValueId value) { return is_possible(proof_.has(value)); });
+  }
+
+  [[nodiscard]] std::vector<Note> why_not(const Demand& demand) {
+    const Asked question = asked_of(catalog_, {&demand, 1});
+    return proof_.notes_of(
+        proof_.relaxed({&demand, 1}).conflict(constraints_on(catalog_, question, true)));
   }
 
   void report_task(TaskId id) {
     const Task& task = proof_.task(id);
-    const Demands demands{{Demand::Kind::run, id, none}};
-    proof_.reporter().report(
-        rule::dead_task, task.range,
-        "task " + quote(task.name) +
-            " can never run: what it takes to run fits in no common situation",
-        proof_.notes_of(conflict_in_all_situations(catalog_, demands, effort_left_)));
+    proof_.reporter().report(rule::dead_task, task.range,
+                             "task " + quote(task.name) +
+                                 " can never run: what it takes to run fits in no common situation",
+                             why_not({Demand::Kind::run, id, none}));
   }
 
   void report_behavior(BehaviorId id) {
     const Behavior& behavior = proof_.behavior(id);
-    const ValueId value = catalog_.performs[id].front();
-    const TaskId task = catalog_.task_of(value);
-    const Demands demands{{Demand::Kind::has, task, value - catalog_.values.begin[task]}};
     proof_.reporter().report(
         rule::dead_behavior, behavior.range,
         "behavior " + quote(behavior.name) +
             " can never be active: it fits in no situation in which what it requires does",
-        proof_.notes_of(conflict_in_all_situations(catalog_, demands, effort_left_)));
+        why_not(proof_.has(catalog_.performs[id].front())));
   }
 
   ProofContext& proof_;
   const CompiledCatalog& catalog_;
+  Ask ask_;
   std::vector<bool> is_dead_;  ///< by task, because of the situation
-  std::unordered_map<TaskId, std::vector<std::uint32_t>> variables_;  ///< that matter to the task
-  Assignment solution_;
-  std::uint64_t effort_left_ = 100'000'000;  ///< reasons that may be examined in total
 };
 
 /// The names in messages: a task and a behavior may have the same one.
@@ -275,7 +265,7 @@ class NeverTogetherCheck {
 void check_situations(ProofContext& proof) { SituationCheck(proof).check(); }
 
 void check_together(ProofContext& proof, const LintOptions& options, bool is_complete) {
-  TogetherSearch together(proof.search(), proof.liveness());
+  TogetherSearch together(proof.search(), proof.space(), proof.liveness(), proof.effort());
   BlockedReactiveCheck(proof, together).check();
   // A value that could not be read excludes nothing, so more tasks may seem to go together.
   if (!is_complete) return;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ask/situation_space.h"
 #include "cbc/event.h"
 #include "runtime/compiled/compiled_catalog.h"
 
@@ -16,16 +17,6 @@ namespace cbc {
 
 // What `cbc verify` is asked: under which assumptions states are reached, and what is to hold in
 // them (docs/verify.md). Situation variables are counted as the catalog does.
-
-/// Values of situation variables, and answers of check_situation (own(b)); all of them hold.
-struct SituationPart {
-  struct Own {
-    BehaviorId behavior;
-    bool available = true;
-  };
-  std::vector<VariableValue> variables;
-  std::vector<Own> behaviors;
-};
 
 inline constexpr std::uint32_t most_values_together = 10'000;
 

@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
-#include "ask/constraint_proof.h"
-#include "core/support/system.h"
+#include "core/property/constraint_proof.h"
+#include "core/words/words.h"
 #include "core/words/words.h"
 #include "runtime/base/text.h"
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "core/check/together.h"
+#include "ask/together.h"
 #include "core/diagnostic/diagnostic.h"
 #include "runtime/compiled/compiled_catalog.h"
 

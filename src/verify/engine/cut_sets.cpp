@@ -25,8 +25,6 @@
 #include <tuple>
 #include <utility>
 
-#include "ask/fitting_search.h"
-
 namespace cbc {
 namespace {
 
@@ -76,10 +74,9 @@ class HittingSetTree {
         catalog_(situations.catalog()),
         options_(options),
         first_value_(static_cast<std::uint32_t>(catalog_.behaviors.size())),
-        first_demand_(catalog_),
-        search_(catalog_, {catalog_.tasks[task].group}) {
-    first_demand_.runs[task] = true;
-  }
+        task_(task),
+        search_(catalog_, 0, Effort(UINT64_MAX, [this] { return !keeps_on(); })),
+        ask_(search_, situations) {}
 
   CutSets grow() {
     std::set<ItemSet> level{{}};  // in catalog order, as BehaviorIds of a group are
@@ -115,17 +112,16 @@ class HittingSetTree {
     if (has_cut_set(node)) return true;
     ++result_.searches;
     const CutSet set = cut_set_of(node);
-    GroupDemand demand = first_demand_;
-    for (const BehaviorId behavior : set.behaviors) demand.rule_out(catalog_, behavior);
-    switch (search_.find(situations_, demand, sets_of(set),
-                         [this](std::uint64_t) { return keeps_on(); })) {
-      case FittingSearch::Answer::found:
+    Demands demands{{Demand::Kind::run, task_, none}};
+    for (const BehaviorId behavior : set.behaviors) add_fault(catalog_, behavior, demands);
+    switch (ask_.find({{catalog_.tasks[task_].group, demands}}, sets_of(set))) {
+      case Feasibility::yes:
         add_children(node, known_.add(items_of_support()), children);
         return true;
-      case FittingSearch::Answer::impossible:
+      case Feasibility::no:
         add_cut_set(node);
         return true;
-      case FittingSearch::Answer::stopped:
+      case Feasibility::unknown:
         break;
     }
     return false;
@@ -153,12 +149,12 @@ class HittingSetTree {
   /// its situation does not have, of the variables that matter to these behaviors.
   [[nodiscard]] ItemSet items_of_support() const {
     ItemSet items;
-    for (const BehaviorId behavior : search_.active()) items.emplace_back(std::uint32_t{behavior});
+    for (const BehaviorId behavior : ask_.active()) items.emplace_back(std::uint32_t{behavior});
     if (!options_.in_some_situation) return items;
-    for (const std::uint32_t variable : situations_.variables_of(search_.active())) {
+    for (const std::uint32_t variable : situations_.variables_of(ask_.active())) {
       const CompiledVariable& of = catalog_.variables[variable];
       for (std::uint32_t value = 0; value < of.value_count; ++value) {
-        if (value == search_.situation()[variable]) continue;
+        if (value == ask_.situation()[variable]) continue;
         items.emplace_back(first_value_ + of.first_value + value);
       }
     }
@@ -233,8 +229,9 @@ class HittingSetTree {
   const CompiledCatalog& catalog_;
   const CutSetOptions& options_;
   const std::uint32_t first_value_;  ///< the first item that is a value
-  GroupDemand first_demand_;         ///< that the task runs
-  FittingSearch search_;
+  const TaskId task_;
+  AssignmentSearch search_;
+  Ask ask_;
   KnownSupports known_;
   std::vector<ItemSet> found_;
   std::map<Item, std::vector<std::size_t>> by_first_;  ///< places of cut sets in found_

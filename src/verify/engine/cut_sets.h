@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "ask/group_search.h"
+#include "ask/ask.h"
 #include "ask/situation_space.h"
 #include "cbc/event.h"
 #include "runtime/compiled/compiled_catalog.h"

@@ -22,13 +22,12 @@ class EffectSearch {
   EffectSearch(const CompiledCatalog& catalog, TaskId task, const EffectOptions& options)
       : catalog_(catalog),
         options_(options),
-        search_(catalog, catalog.tasks[task].group, GroupSearch::Wanted::best),
-        demand_(catalog) {
+        search_(catalog, 0, Effort(UINT64_MAX, [this] { return !keeps_on(); })) {
     result_.task = task;
   }
 
   TaskEffects find(const SituationPart& situation, std::span<const VariableValue> changes) {
-    demand_ = demand_in(situation);
+    misfits_ = misfits_in(situation);
     BestAssignment best;
     if (!find_best({}, best)) return std::move(result_);
     result_.best = best;
@@ -42,29 +41,32 @@ class EffectSearch {
   }
 
  private:
-  /// That the task runs, with what is available.
-  [[nodiscard]] GroupDemand demand_in(const SituationPart& situation) const {
+  [[nodiscard]] bool keeps_on() const { return !options_.on_progress || options_.on_progress(); }
+
+  /// What is not available.
+  [[nodiscard]] BehaviorSet misfits_in(const SituationPart& situation) const {
     const SituationSpace space(catalog_, situation, {});
-    GroupDemand demand(catalog_);
-    demand.runs[result_.task] = true;
-    for (BehaviorId behavior(0); behavior < catalog_.behaviors.size(); ++behavior) {
-      if (space.is_available(behavior) && space.may_fit(behavior, space.all())) continue;
-      demand.rule_out(catalog_, behavior);
+    const GroupId group = catalog_.tasks[result_.task].group;
+    BehaviorSet misfits;
+    for (BehaviorId behavior = catalog_.group_behaviors[group];
+         behavior < catalog_.group_behaviors[group + 1]; ++behavior) {
+      const bool may_fit = space.may_fit(catalog_.fitting_values_of(behavior), space.all());
+      if (!may_fit || !space.is_available(behavior)) misfits.push_back(behavior);
     }
-    return demand;
+    return misfits;
   }
 
   /// False if the search is stopped.
   [[nodiscard]] bool find_best(const BehaviorSet& faults, BestAssignment& best) {
-    GroupDemand demand = demand_;
-    for (const BehaviorId behavior : faults) demand.rule_out(catalog_, behavior);
-    const auto keep_on = [this](std::uint64_t) {
-      return !options_.on_progress || options_.on_progress();
-    };
-    const GroupSearch::Answer answer = search_.find(demand, keep_on);
-    if (answer == GroupSearch::Answer::stopped) return false;
-    if (answer == GroupSearch::Answer::found) best = search_.assignment();
-    return true;
+    const GroupId group = catalog_.tasks[result_.task].group;
+    Demands demands{{Demand::Kind::run, result_.task, none}};
+    for (const BehaviorId behavior : faults) add_fault(catalog_, behavior, demands);
+    for (const BehaviorId behavior : misfits_) add_fault(catalog_, behavior, demands);
+    Assignment found;
+    const Feasibility answer =
+        search_.find(group, demands, found, {}, AssignmentSearch::Wanted::best);
+    if (answer == Feasibility::yes) best = std::move(found);
+    return answer != Feasibility::unknown;
   }
 
   [[nodiscard]] bool add_faults() {
@@ -104,13 +106,13 @@ class EffectSearch {
       for (VariableValue& value : changed.variables) {
         if (value.variable == change.variable) value = change;
       }
-      GroupDemand demand = demand_in(changed);
+      BehaviorSet misfits = misfits_in(changed);
       // What does not depend on the variable stays as it is.
-      if (demand == demand_) continue;
-      std::swap(demand, demand_);
+      if (misfits == misfits_) continue;
+      std::swap(misfits, misfits_);
       BestAssignment best;
       const bool is_done = find_best({}, best);
-      std::swap(demand, demand_);
+      std::swap(misfits, misfits_);
       if (!is_done) return false;
       if (best != result_.best) add({{}, {}, change, best});
     }
@@ -124,8 +126,8 @@ class EffectSearch {
 
   const CompiledCatalog& catalog_;
   const EffectOptions& options_;
-  GroupSearch search_;
-  GroupDemand demand_;  ///< in the situation
+  AssignmentSearch search_;
+  BehaviorSet misfits_;  ///< in the situation
   TaskEffects result_;
 };
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/check/together.h"
+#include "ask/together.h"
 #include "core/report/table.h"
 #include "core/support/wording.h"
 #include "core/words/words.h"

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "core/check/together.h"
+#include "ask/together.h"
 #include "core/report/pair_matrix.h"
 #include "core/report/table.h"
 #include "core/support/wording.h"

@@ -2,10 +2,14 @@
 
 #include <vector>
 
+#include "ask/formula.h"
 #include "core/property/properties.h"
 #include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc {
+
+/// What the assumptions say of all states. They must outlive it.
+[[nodiscard]] StateLimits limits_of(const CompiledCatalog& catalog, const Assumptions& assumptions);
 
 /// Whether the constraints alone decide that an always or never holds: no assignment of the groups
 /// that satisfies them, with behaviors that fit in one situation that may occur, breaks it, be it

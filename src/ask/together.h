@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,12 +9,10 @@
 #include <unordered_set>
 #include <vector>
 
-#include "ask/conflict/conflict_search.h"
-#include "ask/conflict/reasons.h"
-#include "core/check/controls.h"
-#include "core/check/proofs.h"
+#include "ask/ask.h"
+#include "ask/liveness.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "runtime/solver/problem.h"
+#include "ask/conflict/reasons.h"
 
 /// Which tasks can run at the same time. A search decides, since exclusivity lists alone do not
 /// tell: what two tasks require may exclude one another.
@@ -63,8 +60,8 @@ struct TogetherTable {
 /// How the pairs are decided.
 struct TogetherOptions {
   std::uint64_t max_nodes = 100'000;  ///< decisions that the search for one answer may take
-  /// What the settings forbid.
-  std::span<const NeverTogether> never_together = {};
+  /// Names of tasks of which the settings say that no two run together.
+  std::vector<std::vector<std::string>> never_together = {};
 };
 
 /// The most tasks whose pairs are looked at: time and memory grow with the square of their number.
@@ -84,29 +81,15 @@ inline constexpr std::size_t most_tasks_in_pairs = 2'000;
 [[nodiscard]] std::vector<std::uint32_t> variables_of(const CompiledCatalog& catalog,
                                                       std::span<const TaskId> tasks);
 
-/// Asks a question in the situations that differ in some variables, until the answer is not no. The
-/// question gets the values of all variables. Past a limit of situations the answer is unknown.
-using InSituation = std::function<Feasibility(std::span<const std::uint32_t>)>;
-[[nodiscard]] Feasibility ask_in_situations(const CompiledCatalog& catalog,
-                                            const std::vector<std::uint32_t>& variables,
-                                            const InSituation& question);
-
-/// Why there is no situation in which the demands hold together, with behaviors that fit: a minimal
-/// set of requirements, minimum performances, exclusions, and conditions of behaviors. These are of
-/// the kind `situation`, without a value. Empty if it takes too long to find. `effort_left` is
-/// reduced by the work done.
-[[nodiscard]] std::vector<Reason> conflict_in_all_situations(const CompiledCatalog& catalog,
-                                                             const Demands& demands,
-                                                             std::uint64_t& effort_left);
-
 /// Answers questions about pairs of tasks, with every behavior available that fits in the
 /// situation, which may be any.
 ///
-/// The effort of one object is bounded: past it, answers are unknown and reasons are missing.
+/// Past the effort, answers are unknown and reasons are missing.
 class TogetherSearch {
  public:
-  /// Both must outlive this object.
-  TogetherSearch(AssignmentSearch& search, const Liveness& liveness);
+  /// All must outlive this object. `space`: of the catalog of the search. `effort`: for reasons.
+  TogetherSearch(AssignmentSearch& search, const SituationSpace& space, const Liveness& liveness,
+                 Effort& effort);
 
   /// `a` and `b` differ.
   [[nodiscard]] Together decide(TaskId a, TaskId b);
@@ -124,11 +107,8 @@ class TogetherSearch {
   /// Why two tasks never run together: a minimal set of constraints, in the order of the chain that
   /// they form. It begins with what `a` requires, then come exclusions and minimum performances,
   /// and last what `b` requires. Empty if it takes too long to find, or if the constraints allow
-  /// both.
-  [[nodiscard]] std::vector<Reason> find_reasons(TaskId a, TaskId b);
-  /// The same where the constraints allow both, but not with behaviors that fit in one situation:
-  /// with the conditions of behaviors.
-  [[nodiscard]] std::vector<Reason> find_reasons_in_situations(TaskId a, TaskId b);
+  /// both. `with_conditions`: those of behaviors are among the constraints.
+  [[nodiscard]] std::vector<Reason> find_reasons(TaskId a, TaskId b, bool with_conditions = false);
 
   /// Behaviors with which both tasks run. They can run together.
   struct Witness {
@@ -141,23 +121,16 @@ class TogetherSearch {
   [[nodiscard]] bool is_dead(TaskId task) const {
     return liveness_.of_task(task) == Liveness::State::dead;
   }
-  [[nodiscard]] Feasibility decide_by_situations(TaskId a, TaskId b,
-                                                 const std::vector<std::uint32_t>& variables);
-  [[nodiscard]] Together why_not_in_situations(TaskId a, TaskId b,
-                                               const std::vector<std::uint32_t>& variables);
-  [[nodiscard]] Feasibility find(TaskId a, TaskId b, std::span<const std::uint32_t> situation);
-  [[nodiscard]] Feasibility find_alone(TaskId task, std::span<const std::uint32_t> situation);
-  [[nodiscard]] Feasibility solve(ConflictSearch& problem, std::span<const Reason> reasons);
-  void note_running(TaskId first_of_group);
+  [[nodiscard]] Together why_not_in_situations(TaskId a, TaskId b);
+  void note_running(TaskId first_of_group, const Assignment& solution);
 
   AssignmentSearch& search_;
+  Ask ask_;
+  const SituationSpace& space_;
   const Liveness& liveness_;
   const CompiledCatalog& catalog_;
-  const std::vector<std::uint32_t> nothing_present_;
-  Assignment solution_;
-  Witness witness_;                               ///< of the last search that found one
+  Effort& effort_;
   std::unordered_set<std::uint64_t> compatible_;  ///< pairs that the constraints allow
-  std::uint64_t effort_left_;
 };
 
 }  // namespace cbc
