@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "ask/assignment_search.h"
+#include "ask/conflict/conflict_search.h"
+#include "ask/conflict/reasons.h"
 #include "ask/effort.h"
 #include "ask/situation_space.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "ask/conflict/conflict_search.h"
-#include "ask/conflict/reasons.h"
 
 // The one question of all proofs: is there a situation, and are there assignments, of this group
 // and of that one, which meet some demands with behaviors that all fit in it? An answer is

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "ask/conflict/conflict_search.h"
+#include "ask/conflict/reasons.h"
 #include "ask/effort.h"
 #include "ask/situation_space.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "ask/conflict/conflict_search.h"
-#include "ask/conflict/reasons.h"
 #include "runtime/solver/problem.h"
 #include "runtime/solver/solver.h"
 

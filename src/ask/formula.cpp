@@ -71,7 +71,8 @@ Formula FormulaMaker::available(BehaviorId behavior, bool holds) const {
   return formula;
 }
 
-StateAsk::StateAsk(const CompiledCatalog& catalog, const StateLimits& limits, std::uint64_t effort)
+StateAsk::StateAsk(const CompiledCatalog& catalog, const PossibleStates& limits,
+                   std::uint64_t effort)
     : catalog_(catalog),
       limits_(limits),
       space_(catalog, limits_.constant, {}),

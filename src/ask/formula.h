@@ -66,7 +66,7 @@ class FormulaMaker {
 };
 
 /// What states may be like, beside what the constraints say.
-struct StateLimits {
+struct PossibleStates {
   SituationPart constant;                    ///< what does not change, as it is
   std::vector<SituationPart> never;          ///< situations that do not occur
   std::uint32_t faults = UINT32_MAX;         ///< the most behaviors that are faulty at a time
@@ -77,7 +77,7 @@ struct StateLimits {
 class StateAsk {
  public:
   /// The catalog must outlive this object. The effort is that of all questions together.
-  StateAsk(const CompiledCatalog& catalog, const StateLimits& limits, std::uint64_t effort);
+  StateAsk(const CompiledCatalog& catalog, const PossibleStates& limits, std::uint64_t effort);
 
   /// Under all constraints.
   [[nodiscard]] Feasibility find(const Formula& formula);
@@ -124,7 +124,7 @@ class StateAsk {
                              std::deque<SituationSpace>& spaces);
 
   const CompiledCatalog& catalog_;
-  const StateLimits limits_;
+  const PossibleStates limits_;
   const SituationSpace space_;  ///< without `never`
   AssignmentSearch search_;
 };

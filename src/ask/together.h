@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "ask/ask.h"
+#include "ask/conflict/reasons.h"
 #include "ask/liveness.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "ask/conflict/reasons.h"
 
 /// Which tasks can run at the same time. A search decides, since exclusivity lists alone do not
 /// tell: what two tasks require may exclude one another.

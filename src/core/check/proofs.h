@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "ask/ask.h"
+#include "ask/conflict/reasons.h"
 #include "ask/liveness.h"
 #include "core/catalog/catalog.h"
 #include "core/catalog/reader.h"
 #include "core/check/check.h"
 #include "core/diagnostic/diagnostic.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "ask/conflict/reasons.h"
 
 /// What the constraints of a catalog make impossible or redundant: decided exactly, by search.
 /// First the checks, then what they share.

@@ -82,8 +82,8 @@ bool is_listed(const std::vector<Item>& list, Item item) {
 
 }  // namespace
 
-StateLimits limits_of(const CompiledCatalog& catalog, const Assumptions& assumptions) {
-  StateLimits limits;
+PossibleStates limits_of(const CompiledCatalog& catalog, const Assumptions& assumptions) {
+  PossibleStates limits;
   for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
     if (is_listed(assumptions.variables, variable)) continue;
     limits.constant.variables.push_back({variable, initial_value(assumptions, variable)});

@@ -13,7 +13,6 @@
 
 #include "core/property/constraint_proof.h"
 #include "core/words/words.h"
-#include "core/words/words.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
