@@ -1,16 +1,18 @@
 #!/bin/sh
-# without.sh COMMAND PROGRAM CATALOG: does PROGRAM lack this COMMAND, and nothing else?
+# without.sh PROGRAM CATALOG COMMAND...: does PROGRAM lack these COMMANDs, and nothing else?
 set -eu
-help=$("$2" --help)
-if echo "$help" | grep -q "^  $1 "; then
-  echo "without.sh: --help has $1" >&2
-  exit 1
-fi
-if "$2" "$1" "$3" 2>/dev/null; then
-  echo "without.sh: $1 is known" >&2
-  exit 1
-fi
-for other in sweep coverage; do
-  [ "$other" = "$1" ] || "$2" "$other" --help >/dev/null
+program=$1
+catalog=$2
+shift 2
+help=$("$program" --help)
+for command in "$@"; do
+  if echo "$help" | grep -q "^  $command "; then
+    echo "without.sh: --help has $command" >&2
+    exit 1
+  fi
+  if "$program" "$command" "$catalog" 2>/dev/null; then
+    echo "without.sh: $command is known" >&2
+    exit 1
+  fi
 done
-"$2" lint --strict "$3"
+"$program" lint --strict "$catalog"
