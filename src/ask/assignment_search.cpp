@@ -154,7 +154,7 @@ Feasibility AssignmentSearch::solve(Wanted wanted, Assignment& solution) {
     options.is_stopped = [this, asked = 0U]() mutable {
       return ++asked % decisions_between_questions == 0 && effort_.is_over();
     };
-    solver.emplace(catalog_, options, no_ranks_);
+    solver.emplace(catalog_, options);
   }
   const SearchResult result = solver->solve(problem_, solution);
   effort_.spend(result.nodes * effort_of_a_node + problem_.may_stop.size() +

@@ -99,7 +99,6 @@ class AssignmentSearch {
   CompiledCatalog catalog_;
   std::vector<CompiledTask> tasks_;  ///< those of the catalog, to suspend a minimum
   const std::uint64_t max_nodes_;
-  const std::vector<std::uint32_t> no_ranks_;
   std::optional<Solver> any_;
   std::optional<Solver> best_;
   std::vector<std::uint64_t> domains_;  ///< of all tasks, without the values that are ruled out

@@ -88,7 +88,7 @@ SweepSettings settings_of(const SweepOptions& options) {
   settings.shape.faults = static_cast<Millionths>(parse_probability(options.faults).value);
   settings.shard = parse_shard(options.shard).value_or(SweepShard{});
   settings.search = {options.search.max_solutions, options.search.max_nodes,
-                     options.search.tie_seed, options.search.max_clock_events};
+                     options.search.max_clock_events};
   return settings;
 }
 

@@ -82,9 +82,8 @@ bool has_choice(const CompiledCatalog& catalog, const Problem& problem, TaskId t
 
 }  // namespace
 
-ConfigurationSearch::ConfigurationSearch(const CompiledCatalog& catalog,
-                                         const std::vector<std::uint32_t>& ranks)
-    : catalog_(catalog), solver_(catalog, search_options(), ranks), comparison_(catalog, ranks) {}
+ConfigurationSearch::ConfigurationSearch(const CompiledCatalog& catalog)
+    : catalog_(catalog), solver_(catalog, search_options()), comparison_(catalog) {}
 
 void ConfigurationSearch::load(const Problem& problem, const ObjectiveValues& elsewhere) {
   whole_ = &problem;

@@ -45,8 +45,7 @@ struct Difference {
 /// but the canonical order.
 class Comparison {
  public:
-  Comparison(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks)
-      : catalog_(catalog), order_(catalog, ranks) {}
+  explicit Comparison(const CompiledCatalog& catalog) : catalog_(catalog), order_(catalog) {}
 
   /// Sets the problem, which must outlive its use. `elsewhere`: the objectives of all other
   /// groups, but for idle_total, which is that of the whole catalog.
@@ -74,8 +73,8 @@ class Comparison {
 /// depend on the clock.
 class ConfigurationSearch {
  public:
-  /// `ranks`: those of the solver whose answers are explained. Both must outlive the search.
-  ConfigurationSearch(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks);
+  /// The catalog must outlive the search.
+  explicit ConfigurationSearch(const CompiledCatalog& catalog);
 
   /// Sets the problem, which must outlive its use. See Comparison for `elsewhere`.
   void load(const Problem& problem, const ObjectiveValues& elsewhere);

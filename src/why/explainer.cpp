@@ -60,11 +60,6 @@ ObjectiveValues objectives_elsewhere(const CompiledCatalog& catalog, const State
 
 }  // namespace
 
-Explainer::Explainer(const CompiledCatalog& catalog, std::optional<std::uint64_t> tie_seed)
-    : catalog_(catalog),
-      ranks_(tie_seed ? draw_ranks(catalog, *tie_seed) : std::vector<std::uint32_t>()),
-      search_(catalog, ranks_) {}
-
 void Explainer::explain(const Circumstances& circumstances, const Assignment& solution,
                         const Questions& questions, Explanation& explanation) {
   load(circumstances, solution, explanation.chosen);

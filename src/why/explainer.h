@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,8 +20,8 @@ namespace cbc {
 /// event.
 class Explainer {
  public:
-  /// `tie_seed`: of the coordinator. The catalog must outlive the explainer.
-  Explainer(const CompiledCatalog& catalog, std::optional<std::uint64_t> tie_seed);
+  /// The catalog must outlive the explainer.
+  explicit Explainer(const CompiledCatalog& catalog) : catalog_(catalog), search_(catalog) {}
 
   /// Answers the questions about accepted events.
   void explain(const Circumstances& circumstances, const Assignment& solution,
@@ -52,7 +51,6 @@ class Explainer {
                                std::span<const Demands> ways);
 
   const CompiledCatalog& catalog_;
-  const std::vector<std::uint32_t> ranks_;
   ConfigurationSearch search_;
 };
 

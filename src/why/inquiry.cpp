@@ -7,9 +7,8 @@
 
 namespace cbc {
 
-Inquiry::Inquiry(const CompiledCatalog& catalog, const CoordinatorOptions& options,
-                 Questions questions)
-    : catalog_(catalog), tie_seed_(options.tie_seed), questions_(std::move(questions)) {
+Inquiry::Inquiry(const CompiledCatalog& catalog, Questions questions)
+    : catalog_(catalog), questions_(std::move(questions)) {
   if (questions_.failures) journal_.emplace(catalog);
 }
 
@@ -51,7 +50,7 @@ WhyUnmet Inquiry::why_unmet(const State& present, GroupId group, std::span<const
 }
 
 Explainer& Inquiry::explainer() {
-  if (!explainer_) explainer_.emplace(catalog_, tie_seed_);
+  if (!explainer_) explainer_.emplace(catalog_);
   return *explainer_;
 }
 

@@ -4,7 +4,6 @@
 #include <span>
 
 #include "runtime/compiled/compiled_catalog.h"
-#include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/problem_builder.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
@@ -21,8 +20,8 @@ namespace cbc {
 /// listens to the coordinator passes on what it says.
 class Inquiry {
  public:
-  /// The catalog must outlive it. `options`: those of the coordinator.
-  Inquiry(const CompiledCatalog& catalog, const CoordinatorOptions& options, Questions questions);
+  /// The catalog must outlive it.
+  Inquiry(const CompiledCatalog& catalog, Questions questions);
 
   void on_decision(const EventRecord& record, const Circumstances& circumstances,
                    const Assignment* solution);
@@ -41,7 +40,6 @@ class Inquiry {
   [[nodiscard]] Explainer& explainer();
 
   const CompiledCatalog& catalog_;
-  const std::optional<std::uint64_t> tie_seed_;
   const Questions questions_;
   std::optional<Explainer> explainer_;  ///< once there is something to explain: it takes memory
   std::optional<Journal> journal_;

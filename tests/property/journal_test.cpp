@@ -34,7 +34,7 @@ class Hindsight final : private EventListener {
             const Questions& questions, Statistics& statistics)
       : catalog_(catalog),
         statistics_(statistics),
-        inquiry_(catalog, options, questions),
+        inquiry_(catalog, questions),
         coordinator_(catalog, options, *this) {}
 
   void run(const cbc::Script& script) {

@@ -45,24 +45,18 @@ oracle::CatalogFacts facts_of(const CompiledCatalog& catalog, GroupId group) {
   return facts;
 }
 
-oracle::Problem model_of(const CompiledCatalog& catalog, const Problem& problem,
-                         const std::vector<std::uint32_t>& ranks) {
+oracle::Problem model_of(const CompiledCatalog& catalog, const Problem& problem) {
   const TaskId first = catalog.group_tasks[problem.group];
   oracle::Problem model;
   for (LocalTask task(0); task < problem.may_stop.size(); ++task) {
     const TaskId id = first + task;
-    std::vector<std::uint32_t> order;
+    std::vector<std::size_t>& domain = model.domains.emplace_back();
     for (std::uint32_t index = 0; index < catalog.values[id].size(); ++index) {
       const std::uint32_t word = catalog.words[id] - catalog.words[first] + index / 64;
-      if (((problem.domains[word] >> (index % 64)) & 1) != 0) order.push_back(index);
+      if (((problem.domains[word] >> (index % 64)) & 1) != 0) {
+        domain.push_back(behavior_of(catalog, id, index));
+      }
     }
-    if (!ranks.empty()) {
-      const std::uint32_t* const rank = ranks.data() + catalog.values.begin[id];
-      std::sort(order.begin(), order.end(),
-                [&](std::uint32_t a, std::uint32_t b) { return rank[a] < rank[b]; });
-    }
-    std::vector<std::size_t>& domain = model.domains.emplace_back();
-    for (const std::uint32_t index : order) domain.push_back(behavior_of(catalog, id, index));
     if (problem.may_stop[task] != 0) domain.push_back(oracle::none);
     model.before.push_back(behavior_of(catalog, id, problem.present[task]));
   }
@@ -78,11 +72,10 @@ oracle::Problem model_of(const CompiledCatalog& catalog, const Problem& problem,
 
 }  // namespace
 
-BruteForce::BruteForce(const CompiledCatalog& catalog, const Problem& problem,
-                       const std::vector<std::uint32_t>& ranks)
+BruteForce::BruteForce(const CompiledCatalog& catalog, const Problem& problem)
     : first_task_(catalog.group_tasks[problem.group]),
       facts_(facts_of(catalog, problem.group)),
-      problem_(model_of(catalog, problem, ranks)),
+      problem_(model_of(catalog, problem)),
       evaluated_(oracle::enumerate(facts_, problem_)) {
   for (const oracle::Solution& solution : evaluated_) {
     Assignment& assignment = solutions_.emplace_back(solution.values.size(), none);

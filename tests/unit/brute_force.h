@@ -14,9 +14,7 @@ namespace cbc::test {
 /// catalogs nor value indices.
 class BruteForce {
  public:
-  /// `ranks`: by value, its rank in the task; empty: as the values stand.
-  BruteForce(const CompiledCatalog& catalog, const Problem& problem,
-             const std::vector<std::uint32_t>& ranks = {});
+  BruteForce(const CompiledCatalog& catalog, const Problem& problem);
 
   /// All solutions, depth first: tasks in catalog order, values by rank.
   [[nodiscard]] const std::vector<Assignment>& solutions() const { return solutions_; }

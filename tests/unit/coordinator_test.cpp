@@ -364,19 +364,5 @@ TEST(SearchLimits, ThePapersOrderTakesTheFirstSolution) {
   EXPECT_EQ(stage.running(), "A=a C=c2 Q=q");
 }
 
-TEST(TieSeed, OrdersBehaviorsOfEqualSuitability) {
-  int first = 0;
-  int second = 0;
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    CoordinatorOptions options;
-    options.tie_seed = seed;
-    Stage stage("behaviors: [{behavior: a1, task: A}, {behavior: a2, task: A}]", options);
-    stage.start("A");
-    ++(stage.running() == "A=a1" ? first : second);
-  }
-  EXPECT_GT(first, 2);
-  EXPECT_GT(second, 2);
-}
-
 }  // namespace
 }  // namespace cbc::coordinator_test

@@ -31,8 +31,7 @@ Answer solve(const CompiledCatalog& catalog, const Problem& problem, std::uint64
   SearchOptions options;
   options.bounded_nodes = bounded_nodes;
   options.max_nodes = 20'000;
-  const std::vector<std::uint32_t> ranks;
-  Solver solver(catalog, options, ranks);
+  Solver solver(catalog, options);
   Answer answer;
   answer.result = solver.solve(problem, answer.solution);
   if (has_solution(answer.result.status)) answer.text = test::show(catalog, answer.solution);
@@ -101,8 +100,7 @@ TEST(LearningSearch, EndsLikeBranchAndBoundWithTheFirstSolutionIfAnyWillDo) {
     options.any_solution = true;
     options.easy_nodes = 0;
     options.bounded_nodes = bounded_nodes;
-    const std::vector<std::uint32_t> ranks;
-    Solver solver(catalog, options, ranks);
+    Solver solver(catalog, options);
     Assignment solution;
     const SearchResult result = solver.solve(problem, solution);
     EXPECT_TRUE(has_solution(result.status));

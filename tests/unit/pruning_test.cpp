@@ -79,8 +79,7 @@ class Subtree {
   Propagator propagator{catalog, domains};
   Components components{catalog, domains};
   CostBound cost_bound{catalog, domains, components};
-  const std::vector<std::uint32_t> ranks;
-  Objective objective{catalog, domains, components, ranks};
+  Objective objective{catalog, domains, components};
 
  private:
   [[nodiscard]] LocalTask local(std::string_view task) const {

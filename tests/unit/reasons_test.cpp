@@ -355,12 +355,11 @@ TEST(Reasons, ComeWithAllThatThePropagatorInfers) {
 /// infers may rule it out.
 class RandomSearch {
  public:
-  RandomSearch(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks,
-               const Problem& problem, const Assignment& optimum)
+  RandomSearch(const CompiledCatalog& catalog, const Problem& problem, const Assignment& optimum)
       : optimum_(optimum),
         domains_(catalog),
         components_(catalog, domains_),
-        objective_(catalog, domains_, components_, ranks),
+        objective_(catalog, domains_, components_),
         trail_(catalog, domains_),
         bound_(catalog, domains_, trail_),
         performance_(catalog, domains_, trail_),
@@ -490,11 +489,9 @@ TEST(Reasons, NeverRuleOutTheBestSolution) {
     if (random.percent(50)) test::make_perfect(written);
     const CompiledCatalog catalog = compile(written);
     const Problem problem = test::random_problem(random, catalog, test::largest_group(catalog));
-    std::vector<std::uint32_t> ranks;
-    if (random.percent(50)) ranks = draw_ranks(catalog, random.next());
-    const auto optimum = test::BruteForce(catalog, problem, ranks).best();
+    const auto optimum = test::BruteForce(catalog, problem).best();
     if (!optimum) continue;
-    RandomSearch search(catalog, ranks, problem, *optimum);
+    RandomSearch search(catalog, problem, *optimum);
     EXPECT_TRUE(search.run(random));
     EXPECT_EQ(search.best(), *optimum);
     conflicts += search.conflicts();
@@ -528,12 +525,11 @@ TEST(Reasons, OfAnAlmostEqualSuitabilityHoldOnlyWhereItIs) {
   const CompiledCatalog catalog = test::compile_text(text);
   Problem problem = test::open_problem(catalog);
   test::request(problem, catalog, "MISSION");
-  const std::vector<std::uint32_t> ranks;
-  const auto optimum = test::BruteForce(catalog, problem, ranks).best();
+  const auto optimum = test::BruteForce(catalog, problem).best();
   ASSERT_TRUE(optimum);
   Random random(4);
   for (int round = 0; round < 50; ++round) {
-    RandomSearch search(catalog, ranks, problem, *optimum);
+    RandomSearch search(catalog, problem, *optimum);
     EXPECT_TRUE(search.run(random));
     EXPECT_EQ(search.best(), *optimum) << "round " << round;
   }

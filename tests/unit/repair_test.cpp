@@ -16,8 +16,7 @@ std::string repair(const CompiledCatalog& catalog, const Problem& problem,
                    SearchBound* bound = nullptr) {
   SearchOptions options;
   options.max_nodes = 1;
-  const std::vector<std::uint32_t> ranks;
-  Solver solver(catalog, options, ranks);
+  Solver solver(catalog, options);
   Assignment solution;
   const SearchResult result = solver.solve(problem, solution);
   EXPECT_EQ(result.status, SearchStatus::feasible);
@@ -110,8 +109,7 @@ TEST(SearchBound, OfAnAnswerThatNoSearchFound) {
   const CompiledCatalog catalog = test::compile_text(std::string("tasks: [{task: X}]") + pairs);
   const GroupId group = catalog.tasks[test::task_id(catalog, "A")].group;
   ASSERT_EQ(group, 1U);
-  const std::vector<std::uint32_t> ranks;
-  Solver solver(catalog, {}, ranks);
+  Solver solver(catalog, {});
   const auto bound = [&](const Problem& problem) {
     // Other searches before leave nothing behind.
     Assignment solution;

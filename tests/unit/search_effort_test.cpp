@@ -107,8 +107,7 @@ Effort measure(Family family, const SearchOptions& options, int problems) {
   for (int i = 0; i < problems; ++i) {
     const CompiledCatalog catalog = catalog_of(family, random);
     const Problem problem = test::random_open_problem(random, catalog);
-    const std::vector<std::uint32_t> ranks;
-    Solver solver(catalog, options, ranks);
+    Solver solver(catalog, options);
     Assignment solution;
     const SearchResult result = solver.solve(problem, solution);
     sum.nodes += result.nodes;

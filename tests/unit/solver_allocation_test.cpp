@@ -36,8 +36,7 @@ TEST(SolverAllocation, NothingIsAllocatedInTheSearch) {
       options.bounded_nodes = UINT64_MAX;
       options.max_nodes = 3'000;
       options.max_solutions = random.percent(20) ? 10 : 0;
-      const std::vector<std::uint32_t> ranks;
-      Solver solver(catalog, options, ranks);
+      Solver solver(catalog, options);
       Assignment solution;
       solution.reserve(catalog.tasks.size());
       for (int i = 0; i < 3; ++i) {

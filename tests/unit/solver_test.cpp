@@ -51,8 +51,8 @@ struct Answer {
 };
 
 Answer solve(const CompiledCatalog& catalog, const Problem& problem,
-             const SearchOptions& options = {}, const std::vector<std::uint32_t>& ranks = {}) {
-  Solver solver(catalog, options, ranks);
+             const SearchOptions& options = {}) {
+  Solver solver(catalog, options);
   Answer answer;
   answer.result = solver.solve(problem, answer.assignment);
   return answer;
@@ -142,8 +142,7 @@ behaviors:
   Problem with_zero = open_problem(catalog, GroupId(1));
   test::demand(with_zero, catalog, "ALL");
   for (const std::uint64_t easy_nodes : {std::uint64_t{0}, never}) {
-    const std::vector<std::uint32_t> ranks;
-    Solver solver(catalog, restarting_after(easy_nodes), ranks);
+    Solver solver(catalog, restarting_after(easy_nodes));
     Assignment answer;
     EXPECT_EQ(solver.solve(without_zero, answer).status, SearchStatus::optimal);
     EXPECT_EQ(test::show(catalog, answer, GroupId(0)), "X=x2");
@@ -187,37 +186,17 @@ exclusivity_constraints:
 
 // Compared with brute force --------------------------------------------------------------------
 
-/// Orders the values of equal suitability of each task at random.
-std::vector<std::uint32_t> random_ranks(test::Random& random, const CompiledCatalog& catalog) {
-  std::vector<std::uint32_t> ranks;
-  for (TaskId task(0); task < catalog.tasks.size(); ++task) {
-    const auto values = catalog.values[task];
-    std::vector<std::uint32_t> order(values.size());
-    std::iota(order.begin(), order.end(), 0U);
-    random.shuffle(order);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return values[a].suitability > values[b].suitability;
-    });
-    std::vector<std::uint32_t> rank(values.size());
-    for (std::uint32_t index = 0; index < order.size(); ++index) rank[order[index]] = index;
-    ranks.insert(ranks.end(), rank.begin(), rank.end());
-  }
-  return ranks;
-}
-
 class Agreement {
  public:
   /// Solves the problem in every way, and compares.
   void check(const CompiledCatalog& catalog, const Problem& problem, test::Random& random) {
-    const std::vector<std::uint32_t> ranks =
-        random.percent(30) ? random_ranks(random, catalog) : std::vector<std::uint32_t>{};
-    const test::BruteForce truth(catalog, problem, ranks);
+    const test::BruteForce truth(catalog, problem);
     const std::optional<Assignment> best = truth.best();
     const auto some = static_cast<std::uint64_t>(random.between(1, 6));
     for (const SearchOptions& options :
          {restarting_after(0), restarting_after(some), restarting_after(never),
           learning_after(0, 0), learning_after(0, some)}) {
-      const Answer answer = solve(catalog, problem, options, ranks);
+      const Answer answer = solve(catalog, problem, options);
       ASSERT_EQ(answer.result.status, best ? SearchStatus::optimal : SearchStatus::infeasible);
       if (best) {
         ASSERT_EQ(test::show(catalog, answer.assignment, problem.group),
@@ -228,7 +207,7 @@ class Agreement {
                                 std::max<std::size_t>(1, truth.solutions().size())}) {
       SearchOptions first = first_solutions(m);
       if (random.percent(50)) first.easy_nodes = 0;
-      const Answer answer = solve(catalog, problem, first, ranks);
+      const Answer answer = solve(catalog, problem, first);
       const std::optional<Assignment> expected = truth.best(m);
       ASSERT_EQ(answer.result.solutions, std::min(m, truth.solutions().size()));
       if (!expected) {
@@ -240,7 +219,7 @@ class Agreement {
       ASSERT_EQ(test::show(catalog, answer.assignment, problem.group),
                 test::show(catalog, *expected, problem.group));
     }
-    check_node_limits(catalog, problem, ranks, truth);
+    check_node_limits(catalog, problem, truth);
     ++(best ? solved : infeasible);
   }
 
@@ -252,11 +231,11 @@ class Agreement {
 
  private:
   void check_node_limits(const CompiledCatalog& catalog, const Problem& problem,
-                         const std::vector<std::uint32_t>& ranks, const test::BruteForce& truth) {
+                         const test::BruteForce& truth) {
     for (const std::uint64_t limit : {std::uint64_t{1}, std::uint64_t{3}}) {
       for (SearchOptions options : {SearchOptions(), learning_after(0, 0)}) {
         options.max_nodes = limit;
-        const Answer answer = solve(catalog, problem, options, ranks);
+        const Answer answer = solve(catalog, problem, options);
         ASSERT_LE(answer.result.nodes, limit);
         if (has_solution(answer.result.status)) {
           ASSERT_TRUE(truth.is_solution(answer.assignment));
@@ -469,13 +448,12 @@ TEST(Solver, AnswersOfLargerProblemsDoNotDependOnRestarts) {
 
 TEST(Solver, FindsTheSameWithAndWithoutComponentsWithinComponents) {
   test::Random random(3);
-  const std::vector<std::uint32_t> ranks;
   int solved = 0;
   for (int round = 0; round < test::rounds(300); ++round) {
     SCOPED_TRACE(round);
     const CompiledCatalog catalog = test::random_nested_components(random);
-    Solver with(catalog, restarting_after(0), ranks);  // one for all: nothing may be left over
-    Solver without(catalog, restarting_after(never), ranks);
+    Solver with(catalog, restarting_after(0));  // one for all: nothing may be left over
+    Solver without(catalog, restarting_after(never));
     for (int i = 0; i < 4; ++i) {
       Problem problem = test::random_open_problem(random, catalog);
       if (i > 0) test::demand(problem, catalog, "T0");
@@ -494,7 +472,6 @@ TEST(Solver, FindsTheSameWithAndWithoutComponentsWithinComponents) {
 
 TEST(Solver, AnySolutionIsOneOfTheWholeWithComponentsWithinComponents) {
   test::Random random(13);
-  const std::vector<std::uint32_t> ranks;
   SearchOptions any = restarting_after(0);
   any.any_solution = true;
   int solved = 0;
@@ -635,20 +612,19 @@ TEST(Solver, NothingIsLeftOfASearchThatALimitEnded) {
   shape.exclusivity_lists = 6;
   shape.on_request = 0;
   shape.is_deep = true;
-  const std::vector<std::uint32_t> ranks;
   int ended = 0;
   for (int round = 0; round < test::rounds(200); ++round) {
     SCOPED_TRACE(round);
     const CompiledCatalog catalog = compile(test::random_catalog(random, shape));
     for (SearchOptions options : {learning_after(0, 0), restarting_after(0)}) {
       options.max_nodes = 6;
-      Solver used(catalog, options, ranks);
+      Solver used(catalog, options);
       for (int i = 0; i < 4; ++i) {
         const Problem problem = test::random_open_problem(random, catalog);
         Assignment found;
         Assignment expected;
         const SearchResult result = used.solve(problem, found);
-        const SearchResult alone = Solver(catalog, options, ranks).solve(problem, expected);
+        const SearchResult alone = Solver(catalog, options).solve(problem, expected);
         ASSERT_EQ(result.status, alone.status);
         ASSERT_EQ(result.nodes, alone.nodes);
         ASSERT_EQ(result.propagations, alone.propagations);
@@ -700,8 +676,7 @@ TEST(Solver, ABoundWithoutASearchLeavesOpenWhichRequestsAreServed) {
   Problem problem = open_problem(catalog);
   test::request(problem, catalog, "A");
   test::demand(problem, catalog, "A");
-  const std::vector<std::uint32_t> ranks;
-  Solver solver(catalog, {}, ranks);
+  Solver solver(catalog, {});
   const SearchBound bound = solver.bound(problem, Assignment{0});
   EXPECT_EQ(bound.more_requests, 0U);
   EXPECT_FALSE(bound.same_requests);

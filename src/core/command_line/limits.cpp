@@ -45,8 +45,6 @@ std::vector<Option*> add_search_limits(Command& command, SearchLimits& limits) {
                           "Take the best of the first M solutions, not of all"),
           &command.option("--max-nodes", limits.max_nodes, whole_number("N", 1),
                           "End the search of an event after N decisions"),
-          &command.option("--tie-seed", limits.tie_seed, whole_number("N", 0),
-                          "Order equal behaviors at random, with the seed N"),
           &command.option("--max-clock-events", limits.max_clock_events, whole_number("N", 1),
                           "Give up after N clock events")};
 }
@@ -55,7 +53,6 @@ CoordinatorOptions coordinator_options(const SearchLimits& limits) {
   CoordinatorOptions options;
   options.search.max_solutions = limits.max_solutions;
   options.search.max_nodes = limits.max_nodes;
-  options.tie_seed = limits.tie_seed;
   options.max_clock_events = limits.max_clock_events;
   return options;
 }

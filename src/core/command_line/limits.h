@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +15,6 @@ namespace cbc::cli {
 struct SearchLimits {
   std::uint64_t max_solutions = 0;
   std::uint64_t max_nodes = 0;
-  std::optional<std::uint64_t> tie_seed;
   std::uint64_t max_clock_events = CoordinatorOptions{}.max_clock_events;
 };
 

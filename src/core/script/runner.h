@@ -170,7 +170,7 @@ class Runner final : private EventListener {
          Questions questions = {})
       : catalog_(catalog),
         listener_(listener),
-        inquiry_(catalog, options, std::move(questions)),
+        inquiry_(catalog, std::move(questions)),
         coordinator_(catalog, options, *this) {
     if (options.measure_time) result_.totals.emplace();
   }

@@ -149,10 +149,8 @@ ConstraintRelaxation::ConstraintRelaxation(const CompiledCatalog& catalog,
                                            const CoordinatorOptions& options)
     : catalog_(catalog),
       options_(options.search),
-      ranks_(options.tie_seed ? draw_ranks(catalog, *options.tie_seed)
-                              : std::vector<std::uint32_t>{}),
       most_variants_(most_variants_of(catalog)),
-      solver_(catalog, options_, ranks_) {}
+      solver_(catalog, options_) {}
 
 bool ConstraintRelaxation::load(const EventRecord& record, const Circumstances& circumstances,
                                 const Assignment* solution) {
@@ -246,8 +244,8 @@ ConstraintRelaxation::Variant& ConstraintRelaxation::variant_of(const Goal& goal
   if (known != variants_.end()) return *known->second;
   if (variants_.size() >= most_variants_) variants_.clear();
   return *variants_
-              .emplace(number, std::make_unique<Variant>(without_constraint(catalog_, goal),
-                                                         options_, ranks_))
+              .emplace(number,
+                       std::make_unique<Variant>(without_constraint(catalog_, goal), options_))
               .first->second;
 }
 

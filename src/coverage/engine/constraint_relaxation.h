@@ -52,9 +52,8 @@ class ConstraintRelaxation {
 
  private:
   struct Variant {
-    Variant(CompiledCatalog without, const SearchOptions& options,
-            const std::vector<std::uint32_t>& ranks)
-        : catalog(std::move(without)), solver(catalog, options, ranks) {}
+    Variant(CompiledCatalog without, const SearchOptions& options)
+        : catalog(std::move(without)), solver(catalog, options) {}
 
     CompiledCatalog catalog;
     Solver solver;
@@ -66,7 +65,6 @@ class ConstraintRelaxation {
 
   const CompiledCatalog& catalog_;
   const SearchOptions options_;
-  const std::vector<std::uint32_t> ranks_;
   std::size_t most_variants_;
   std::unordered_map<std::size_t, std::unique_ptr<Variant>> variants_;
   Solver solver_;  ///< with all constraints

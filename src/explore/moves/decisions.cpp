@@ -18,7 +18,7 @@ Decisions::Decisions(const Model& model, std::size_t most_bytes, DecisionListene
     : model_(model),
       most_bytes_(most_bytes),
       listener_(std::move(listener)),
-      solver_(model.catalog(), SearchOptions{}, ranks_),
+      solver_(model.catalog(), SearchOptions{}),
       value_words_(words_for(model.value_count())),
       task_words_(words_for(model.tasks().size())),
       key_words_(1 + 2 * value_words_ + task_words_ +

@@ -63,7 +63,6 @@ class Decisions {
   const Model& model_;
   const std::size_t most_bytes_;
   const DecisionListener listener_;
-  const std::vector<std::uint32_t> ranks_;  ///< as the values stand
   Solver solver_;
   Problem problem_;
   Assignment solution_;

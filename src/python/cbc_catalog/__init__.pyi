@@ -235,7 +235,6 @@ def solve(
     after: Optional[int] = None,
     max_solutions: Optional[int] = None,
     max_nodes: Optional[int] = None,
-    tie_seed: Optional[int] = None,
     max_clock_events: Optional[int] = None,
     time_limit: Optional[float] = None,
 ) -> Report: ...
@@ -278,7 +277,6 @@ def coverage(
     time_limit: Optional[float] = None,
     max_solutions: Optional[int] = None,
     max_nodes: Optional[int] = None,
-    tie_seed: Optional[int] = None,
     max_clock_events: Optional[int] = None,
 ) -> Report: ...
 def sweep(
@@ -302,7 +300,6 @@ def sweep(
     shard: Optional[str] = None,
     max_solutions: Optional[int] = None,
     max_nodes: Optional[int] = None,
-    tie_seed: Optional[int] = None,
     max_clock_events: Optional[int] = None,
 ) -> Report: ...
 def tune(

@@ -15,7 +15,7 @@ def lint(*files, script=None, summary=False, max_nodes=None, confine=None, error
 
 
 def solve(*files, html=None, jobs=None, stats=False, confine=None, why=None, alternatives=None,
-          what_if=False, after=None, max_solutions=None, max_nodes=None, tie_seed=None,
+          what_if=False, after=None, max_solutions=None, max_nodes=None,
           max_clock_events=None, time_limit=None):
     """Runs event scripts; `passed` says whether all expectations hold: cbc-solve(1)."""
     options = locals()
@@ -33,7 +33,7 @@ def verify(*files, scripts=None, html=None, jobs=None, reduce=False, confine=Non
 
 def coverage(*files, fail_under=None, merge=False, jobs=None, confine=None, prove=False,
              mutants=False, scripts=None, assume=None, max_states=None,
-             max_memory=None, time_limit=None, max_solutions=None, max_nodes=None, tie_seed=None,
+             max_memory=None, time_limit=None, max_solutions=None, max_nodes=None,
              max_clock_events=None):
     """What event scripts test of a catalog: cbc-coverage(1)."""
     options = locals()
@@ -43,7 +43,7 @@ def coverage(*files, fail_under=None, merge=False, jobs=None, confine=None, prov
 def sweep(*files, jobs=None, stats=False, slowest=None, slowest_by_time=None, merge=False,
           confine=None, against=None, renamed=None, allow_missing=False, scripts=None,
           sequences=None, seed=None, events=None, priorities=None, failures=None, faults=None,
-          shard=None, max_solutions=None, max_nodes=None, tie_seed=None, max_clock_events=None):
+          shard=None, max_solutions=None, max_nodes=None, max_clock_events=None):
     """Runs random events and faults: cbc-sweep(1)."""
     options = locals()
     return run("sweep", options.pop("files"), options)

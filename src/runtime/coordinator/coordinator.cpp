@@ -25,12 +25,10 @@ Coordinator::Coordinator(const CompiledCatalog& catalog, const CoordinatorOption
     : catalog_(catalog),
       options_(options),
       listener_(listener),
-      ranks_(options.tie_seed ? draw_ranks(catalog, *options.tie_seed)
-                              : std::vector<std::uint32_t>{}),
       state_(catalog),
       problem_builder_(catalog, state_),
       transition_(catalog, state_, record_),
-      solver_(catalog, options.search, ranks_),
+      solver_(catalog, options.search),
       checker_(catalog) {}
 
 void Coordinator::begin(std::span<const Availability> situation,

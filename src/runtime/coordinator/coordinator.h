@@ -26,8 +26,6 @@ struct CoordinatorOptions {
   bool timeouts = true;                        ///< false: the clock ends no behavior
   std::uint64_t max_clock_events = 1'000'000;  ///< timeouts and reactive starts, no-ops too
   bool measure_time = false;                   ///< records the time of searches
-  /// Orders behaviors of equal suitability at random instead of in catalog order.
-  std::optional<std::uint64_t> tie_seed;
   /// Asked before the clock moves on; true ends a call with Coordinator::Status::stopped.
   std::function<bool()> is_stopped;
 };
@@ -139,7 +137,6 @@ class Coordinator {
   const CompiledCatalog& catalog_;
   const CoordinatorOptions options_;
   EventListener& listener_;
-  std::vector<std::uint32_t> ranks_;  ///< by value, if there is a tie seed
   State state_;
   EventRecord record_;
   SearchRecord search_;

@@ -98,9 +98,4 @@ class ProblemBuilder {
   Problem problem_;
 };
 
-/// By value, its rank in the task, with behaviors of equal suitability in a random order drawn from
-/// `seed`.
-[[nodiscard]] std::vector<std::uint32_t> draw_ranks(const CompiledCatalog& catalog,
-                                                    std::uint64_t seed);
-
 }  // namespace cbc

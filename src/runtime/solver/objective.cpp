@@ -35,9 +35,7 @@ constexpr std::uint32_t whole_share = 840;
 
 }  // namespace
 
-CanonicalOrder::CanonicalOrder(const CompiledCatalog& catalog,
-                               const std::vector<std::uint32_t>& ranks)
-    : catalog_(catalog), ranks_(ranks) {
+CanonicalOrder::CanonicalOrder(const CompiledCatalog& catalog) : catalog_(catalog) {
   const std::size_t tasks = most_in_a_group(catalog.group_tasks);
   empty_first_.reserve(tasks);
   kept_first_.reserve(tasks);
@@ -45,14 +43,14 @@ CanonicalOrder::CanonicalOrder(const CompiledCatalog& catalog,
 
 void CanonicalOrder::load(const Problem& problem) {
   const Problem& whole = problem.subproblem_of != nullptr ? *problem.subproblem_of : problem;
-  first_task_ = catalog_.group_tasks[whole.group];
+  const TaskId first_task = catalog_.group_tasks[whole.group];
   const auto tasks = static_cast<std::uint32_t>(whole.present.size());
   empty_first_.resize(tasks);
   kept_first_.resize(tasks);
   for (LocalTask task(0); task < tasks; ++task) {
-    const TaskId id = first_task_ + task;
+    const TaskId id = first_task + task;
     const std::uint64_t* const words =
-        whole.domains.data() + (catalog_.words[id] - catalog_.words[first_task_]);
+        whole.domains.data() + (catalog_.words[id] - catalog_.words[first_task]);
     const std::uint32_t present = whole.present[task];
     empty_first_[task] = present == none && whole.may_stop[task] != 0;
     const auto values = catalog_.values[id];
@@ -64,8 +62,8 @@ void CanonicalOrder::load(const Problem& problem) {
 }
 
 Objective::Objective(const CompiledCatalog& catalog, const Domains& domains,
-                     const Components& components, const std::vector<std::uint32_t>& ranks)
-    : catalog_(catalog), domains_(domains), components_(components), order_(catalog, ranks) {
+                     const Components& components)
+    : catalog_(catalog), domains_(domains), components_(components), order_(catalog) {
   const std::size_t tasks = most_in_a_group(catalog.group_tasks);
   const std::size_t behaviors = most_in_a_group(catalog.group_behaviors);
   is_request_.reserve(tasks);

@@ -33,8 +33,7 @@ class ExactProduct {
 /// (docs/semantics.md, "Canonical order").
 class CanonicalOrder {
  public:
-  /// `ranks`: by value, its rank in the task; empty: as the values stand.
-  CanonicalOrder(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks);
+  explicit CanonicalOrder(const CompiledCatalog& catalog);
 
   /// Sets the problem. Allocates nothing.
   void load(const Problem& problem);
@@ -42,15 +41,11 @@ class CanonicalOrder {
   /// Rank of a value (or none) of a task: lower is better, and no two values have the same.
   [[nodiscard]] std::uint32_t key(LocalTask task, std::uint32_t index) const {
     if (index == none) return empty_first_[task] != 0 ? 0U : none;
-    if (index == kept_first_[task]) return 0;
-    if (ranks_.empty()) return index + 1;
-    return ranks_[catalog_.values.begin[first_task_ + task] + index] + 1;
+    return index == kept_first_[task] ? 0 : index + 1;
   }
 
  private:
   const CompiledCatalog& catalog_;
-  const std::vector<std::uint32_t>& ranks_;
-  TaskId first_task_;
   std::vector<std::uint8_t> empty_first_;  ///< by task: "not running" comes first
   std::vector<std::uint32_t> kept_first_;  ///< by task: the value index that comes first, or none
 };
@@ -69,9 +64,7 @@ struct Incumbent {
 /// "Objectives").
 class Objective {
  public:
-  /// `ranks`: by value, its rank in the task; empty: as the values stand.
-  Objective(const CompiledCatalog& catalog, const Domains& domains, const Components& components,
-            const std::vector<std::uint32_t>& ranks);
+  Objective(const CompiledCatalog& catalog, const Domains& domains, const Components& components);
 
   /// To be called after Domains::load.
   void load(const Problem& problem);

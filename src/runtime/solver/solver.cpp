@@ -17,14 +17,13 @@
 
 namespace cbc {
 
-Solver::Solver(const CompiledCatalog& catalog, const SearchOptions& options,
-               const std::vector<std::uint32_t>& ranks)
+Solver::Solver(const CompiledCatalog& catalog, const SearchOptions& options)
     : catalog_(catalog),
       options_(options),
       domains_(catalog),
       propagator_(catalog, domains_),
       components_(catalog, domains_),
-      objective_(catalog, domains_, components_, ranks),
+      objective_(catalog, domains_, components_),
       cost_bound_(catalog, domains_, components_),
       learning_(catalog, domains_, objective_),
       repair_(catalog, domains_, propagator_) {

@@ -45,10 +45,8 @@ struct SearchOptions {
 /// what the problems need.
 class Solver {
  public:
-  /// `ranks`: by value, its rank in the task; empty: as the values stand. Both references must
-  /// outlive the solver.
-  Solver(const CompiledCatalog& catalog, const SearchOptions& options,
-         const std::vector<std::uint32_t>& ranks);
+  /// The catalog must outlive the solver.
+  Solver(const CompiledCatalog& catalog, const SearchOptions& options);
 
   /// If the status has a solution, `solution` is set.
   SearchResult solve(const Problem& problem, Assignment& solution);

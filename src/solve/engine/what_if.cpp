@@ -224,9 +224,8 @@ namespace {
 /// Makes moves of events: each with those that follow from it at once.
 class MoveRecorder final : public EventListener {
  public:
-  MoveRecorder(const CompiledCatalog& catalog, const CoordinatorOptions& options,
-               const TakeMove& take)
-      : take_(take), inquiry_(catalog, options, {.rejections = true}) {}
+  MoveRecorder(const CompiledCatalog& catalog, const TakeMove& take)
+      : take_(take), inquiry_(catalog, {.rejections = true}) {}
 
   /// The next events happen from here on. `step`: the scripted one, or null.
   void begin(const Coordinator& coordinator, const Step* step) {
@@ -274,7 +273,7 @@ class MoveRecorder final : public EventListener {
 RunResult try_moves(const CompiledCatalog& catalog, const CoordinatorOptions& options,
                     const Snapshot& snapshot, std::span<const Step> steps, const TakeMove& take) {
   using Status = Coordinator::Status;
-  MoveRecorder recorder(catalog, options, take);
+  MoveRecorder recorder(catalog, take);
   Coordinator coordinator(catalog, options, recorder);
   Status status = Status::ok;
   for (const Step& step : steps) {

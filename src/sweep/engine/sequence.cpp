@@ -128,7 +128,6 @@ CoordinatorOptions coordinator_options(const SweepSearch& search) {
   CoordinatorOptions options;
   options.search.max_solutions = search.max_solutions;
   options.search.max_nodes = search.max_nodes;
-  options.tie_seed = search.tie_seed;
   options.max_clock_events = search.max_clock_events;
   return options;
 }
@@ -141,8 +140,7 @@ class Sequence final : public EventListener {
            std::uint64_t sequence, SequenceListener& listener, bool explains_rejections)
       : shape_(settings.shape),
         listener_(listener),
-        inquiry_(catalog, coordinator_options(settings.search),
-                 {.rejections = explains_rejections}),
+        inquiry_(catalog, {.rejections = explains_rejections}),
         generator_(catalog, names, settings.shape, settings.seed, sequence),
         coordinator_(catalog, coordinator_options(settings.search), *this) {}
 
@@ -228,7 +226,6 @@ std::string options_for_script(const SweepSearch& search) {
   std::string text;
   if (search.max_solutions > 0) text += fmt::format(" --max-solutions {}", search.max_solutions);
   if (search.max_nodes > 0) text += fmt::format(" --max-nodes {}", search.max_nodes);
-  if (search.tie_seed) text += fmt::format(" --tie-seed {}", *search.tie_seed);
   if (search.max_clock_events != SweepSearch{}.max_clock_events) {
     text += fmt::format(" --max-clock-events {}", search.max_clock_events);
   }

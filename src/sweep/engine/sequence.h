@@ -28,7 +28,6 @@ namespace cbc {
 struct SweepSearch {
   std::uint64_t max_solutions = 0;
   std::uint64_t max_nodes = 0;
-  std::optional<std::uint64_t> tie_seed;
   std::uint64_t max_clock_events = CoordinatorOptions{}.max_clock_events;  ///< in each sequence
 
   bool operator==(const SweepSearch&) const = default;

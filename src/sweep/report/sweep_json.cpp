@@ -58,8 +58,6 @@ constexpr auto options = object(
          group(member("max_solutions", count, "--max-solutions; 0: no limit.",
                       &SweepSearch::max_solutions),
                member("max_nodes", count, "--max-nodes; 0: no limit.", &SweepSearch::max_nodes),
-               member("tie_seed", nullable(count), "--tie-seed; null: catalog order.",
-                      &SweepSearch::tie_seed),
                member("max_clock_events", integer(1),
                       "Limit of clock events in each sequence (--max-clock-events).",
                       &SweepSearch::max_clock_events))));

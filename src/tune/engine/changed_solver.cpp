@@ -10,7 +10,7 @@ ChangedSolver::ChangedSolver(const CompiledCatalog& recorded, const Catalog& cat
                              const TunableNumber& number, KnownCosts& costs)
     : recorded_(recorded),
       catalog_(compile(catalog, costs)),
-      solver_(catalog_, {}, no_ranks_),
+      solver_(catalog_, {}),
       has_number_(catalog_.values.items.size(), 0) {
   const auto find = [&](TaskId task, BehaviorId behavior) {
     const auto values = catalog_.values[task];

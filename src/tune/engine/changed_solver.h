@@ -42,7 +42,6 @@ class ChangedSolver {
 
   const CompiledCatalog& recorded_;
   const CompiledCatalog catalog_;
-  const std::vector<std::uint32_t> no_ranks_;
   Solver solver_;
   std::vector<std::uint32_t>
       places_;  ///< by value of the recorded catalog: where it is in its task
