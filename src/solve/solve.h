@@ -31,7 +31,6 @@ struct StreamOptions {
   std::optional<std::string> state_out;
   std::optional<std::string> replay;
   std::optional<std::string> to_script;
-  bool against = false;              ///< the log is of another catalog
   std::string clock = "events";      ///< or "real"
   std::optional<std::string> serve;  ///< where a page shows the stream
 };
@@ -64,9 +63,6 @@ struct SolveOptions {
 /// The optional members of events in JSON.
 [[nodiscard]] EventAdditions event_additions(const SolveOptions& options);
 
-/// Says that a page lacks the last events, if it lacks any.
-void tell_left_out(const std::string& page, std::uint64_t events);
-
 // The beginning and the end of streams and replays. Problems go to standard error.
 
 /// Whether the file of --state-out, if the option is given, can be written. All has been read.
@@ -81,10 +77,8 @@ void tell_left_out(const std::string& page, std::uint64_t events);
 /// Reports why a run ended early, if it did. Returns the exit status of the run.
 [[nodiscard]] int report_end(const Runner& runner, const CoordinatorOptions& options);
 
-/// Runs scripts, and reports them in one of the formats for whole runs. `catalog`: on which all of
-/// them run; null if it is the first path, or they name theirs. Returns the exit status.
-[[nodiscard]] int solve_missions(const SolveOptions& options,
-                                 std::shared_ptr<const CheckedCatalog> catalog = nullptr);
+/// Runs scripts, and reports them in one of the formats for whole runs. Returns the exit status.
+[[nodiscard]] int solve_missions(const SolveOptions& options);
 
 /// Runs the only script to one of its events, and reports what could happen then. Returns the exit
 /// status.
@@ -95,14 +89,8 @@ void tell_left_out(const std::string& page, std::uint64_t events);
 /// status.
 [[nodiscard]] int solve_stream(const SolveOptions& options);
 
-/// Runs the events of a recorded stream again, and compares the outputs, which are written only if
-/// the format is jsonl.
-[[nodiscard]] int replay_stream(const SolveOptions& options, const CompiledCatalog& catalog);
-/// Runs the events from outside of a log on a catalog that may be another one, and reports what is
-/// decided differently.
-[[nodiscard]] int replay_against(const SolveOptions& options, const CompiledCatalog& catalog);
-/// The same on the catalog that is the path; then reports the events in the format that is wanted,
-/// and writes them as a script.
-[[nodiscard]] int replay(SolveOptions options);
+/// Runs the events from outside of a log on the catalog that is the path, its own or another one,
+/// and reports what is decided differently. With --to-script, then writes them as a script.
+[[nodiscard]] int replay(const SolveOptions& options);
 
 }  // namespace cbc::cli

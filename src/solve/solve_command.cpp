@@ -98,10 +98,11 @@ int solve(const SolveOptions& options) {
     return usage_error("solve", options.stream.replay ? "expected the catalog of the log"
                                                       : "expected a catalog and a script");
   }
-  if (options.html && options.format == "jsonl" && !options.stream.replay) {
+  if (options.html && options.format == "jsonl") {
     return usage_error("solve",
                        "--html cannot be used with '--format jsonl': it draws whole runs; --serve "
-                       "shows a stream, and --replay LOG --html FILE draws a recorded one");
+                       "shows a stream, and 'cbc solve CATALOG LOG --html FILE' draws a recorded "
+                       "one");
   }
   if (options.what_if.is_wanted) return solve_what_if(options);
   if (options.stream.replay) return replay(options);
@@ -125,7 +126,7 @@ void add_reasons(Command& command, ExplainOptions& options) {
 void add_what_if(Command& command, WhatIfOptions& options) {
   command.flag("--what-if", options.is_wanted, "List what could happen next in one mission")
       .only_with_values("--format", {"text", "json"})
-      .not_with({"--html", "--brief", "--stats", "--jobs", "--why", "--alternatives", "--replay"},
+      .not_with({"--html", "--brief", "--stats", "--jobs", "--why", "--alternatives"},
                 "it reports moves from one state, not a run");
   command.option("--after", options.after, whole_number("N", 0), "After its event N")
       .without("the last one")
@@ -142,27 +143,24 @@ void add_stream_options(Command& command, StreamOptions& options) {
   state.replaced_by = "--state-out";
   command
       .option("--state-in", options.state_in, state, "Continue from a saved state of the catalog")
-      .only_with({"--format jsonl"});
+      .only_with({"--format jsonl", "--replay"});
   command
       .option("--clock", options.clock, one_of("CLOCK", {"events", "real"}),
               "What moves time: events or real")
-      .only_with({"--format jsonl"})
-      .not_with({"--replay"}, "a replay takes its times from the log");
+      .only_with({"--format jsonl"});
   command.option("--serve", options.serve, page_address(), "Show the stream in a browser")
       .value_or(serve::default_address)
-      .only_with({"--format jsonl"})
-      .not_with({"--replay"}, "a log is complete, so --html draws it");
-  command.option("--replay", options.replay, input("LOG", ValueKind::file),
-                 "Run the events of a jsonl output again, and compare");
+      .only_with({"--format jsonl"});
+  command
+      .option("--replay", options.replay, input("LOG", ValueKind::file),
+              "Run the events of a jsonl output again, and compare")
+      .not_with({"--html", "--why", "--alternatives", "--brief", "--stats", "--what-if", "--jobs"},
+                "it reports differences alone; without '--replay', a log runs as a script")
+      .only_with_values("--format", {"text"});
   command
       .option("--to-script", options.to_script, further_output("FILE"),
               "Write these events as a script")
       .only_with({"--replay"});
-  command.flag("--against", options.against, "LOG is of another catalog: report what changes")
-      .only_with({"--replay"})
-      .not_with({"--html", "--to-script", "--why", "--alternatives", "--brief"},
-                "it reports differences alone")
-      .only_with_values("--format", {"text"});
 }
 
 }  // namespace
@@ -186,7 +184,6 @@ void add_solve_command(Program& program) {
   command.flag("--brief", options->brief, "Write one line for each event, no table")
       .only_with_values("--format", {"text", "github"});
   command.flag("--stats", options->stats, "Show the cost of searches, memory and time")
-      .not_with({"--replay"}, "times cannot be repeated")
       .not_with({"--format junit", "--format github"}, "it has no place for times");
   command.add_confinement();
   add_reasons(command, options->explain);

@@ -124,7 +124,7 @@ void point_to_tuning(const std::vector<Mission>& missions, const SolveOptions& o
   const bool have_one_catalog =
       std::all_of(missions.begin(), missions.end(),
                   [&](const Mission& mission) { return mission.source.get() == &source; });
-  const bool is_text = options.format == "text" && !options.stream.replay;
+  const bool is_text = options.format == "text";
   if (!is_text || !have_one_catalog || source.text == nullptr) return;
   const std::string hint = fmt::format(
       "which number of the catalog would have to change: cbc tune {}",
@@ -181,7 +181,10 @@ int draw_missions(const std::vector<Mission>& missions, const SolveOptions& opti
   }
   ReportPair both(report, picture);
   const int status = run_missions(missions, options, both);
-  tell_left_out(*options.html, picture.left_out());
+  if (const std::uint64_t events = picture.left_out(); events > 0) {
+    complain("the page {} leaves out the last {}: it holds at most {} MiB of them",
+             quote(*options.html), quantity(events, "event"), HtmlReport::most_data >> 20U);
+  }
   return std::max(status, write_output(*options.html, picture.page()));
 }
 
@@ -194,17 +197,10 @@ bool know_names(const std::vector<Mission>& missions, const ExplainOptions& opti
 
 }  // namespace
 
-void tell_left_out(const std::string& page, std::uint64_t events) {
-  if (events == 0) return;
-  complain("the page {} leaves out the last {}: it holds at most {} MiB of them", quote(page),
-           quantity(events, "event"), HtmlReport::most_data >> 20U);
-}
-
-int solve_missions(const SolveOptions& options, std::shared_ptr<const CheckedCatalog> catalog) {
+int solve_missions(const SolveOptions& options) {
   const SolveFormat& format = *find_named(solve_formats(), options.format);
   MissionLoader loader;
   loader.keep_outdated();
-  if (catalog != nullptr) loader.give_catalog(std::move(catalog));
   const std::optional<std::vector<Mission>> missions = loader.load(options.paths);
   if (!missions) {
     // CI systems could take a missing report for one without failures.

@@ -138,8 +138,8 @@ void LivePage::end(const RunResult& result, const std::string& error) {
   server_->finish(std::chrono::seconds(2));
   if (!server_->was_visited()) {
     complain(
-        "the stream ended before a browser opened its page; --replay LOG --html FILE makes "
-        "one of a log");
+        "the stream ended before a browser opened its page; 'cbc solve CATALOG LOG --html "
+        "FILE' makes one of a log");
   }
 }
 

@@ -143,7 +143,7 @@ class Live(PageCase):
         self.browser.settle()
         grown = self.browser.ask(KNOWLEDGE)
         drawn = OUT / "live.html"
-        subprocess.run([PROGRAM, "solve", "--replay", self.log, QUADROTOR, "--html", drawn], cwd=ROOT,
+        subprocess.run([PROGRAM, "solve", QUADROTOR, self.log, "--html", drawn], cwd=ROOT,
                        stdout=subprocess.DEVNULL, check=True)
         self.open((drawn.as_uri(),))
         self.browser.ask("document.querySelector('#alarms').hidden = false")  # as high as before

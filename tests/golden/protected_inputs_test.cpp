@@ -64,7 +64,7 @@ TEST_F(ProtectedInputs, AreTheSettings) {
       {"solve", "robot.yaml", "missions/mission.yaml", "--format", "jsonl", "--state-out"},
       {"sweep", "robot.yaml", "--sequences", "2", "--slowest"},
       {"coverage", "robot.yaml", "missions", "--output"},
-      {"solve", "--format", "jsonl", "--replay", "log.jsonl", "robot.yaml", "--state-out"},
+      {"solve", "--replay", "log.jsonl", "robot.yaml", "--to-script"},
       {"verify", "robot.yaml", "--output"},
       {"verify", "robot.yaml", "properties.yaml", "--output"}};
   for (const CommandLine& command : commands) expect_protected(command, ".cbc.yaml");
@@ -79,12 +79,8 @@ TEST_F(ProtectedInputs, AreFilesThatOtherFilesName) {
 }
 
 TEST_F(ProtectedInputs, AreFilesOfTheCommandLine) {
-  expect_protected(
-      {"solve", "--format", "jsonl", "--replay", "log.jsonl", "robot.cbc", "--state-out"},
-      "log.jsonl");
-  expect_protected(
-      {"solve", "--format", "jsonl", "--replay", "log.jsonl", "robot.cbc", "--state-out"},
-      "robot.cbc");
+  expect_protected({"solve", "--replay", "log.jsonl", "robot.cbc", "--to-script"}, "log.jsonl");
+  expect_protected({"solve", "--replay", "log.jsonl", "robot.cbc", "--to-script"}, "robot.cbc");
   expect_protected({"sweep", "--merge", "shard.json", "--slowest"}, "shard.json");
   expect_protected({"verify", "properties.yaml", "--html"}, "properties.yaml");
 }
@@ -102,20 +98,14 @@ TEST_F(ProtectedInputs, AreNamedAsTheyWereRead) {
                 "'.cbc.yaml', which was read\n");
 }
 
-/// A state may be replaced by the next one, and by nothing else.
-TEST_F(ProtectedInputs, AreStatesThatAStreamContinues) {
+TEST_F(ProtectedInputs, AreNotStatesThatTheNextOneReplaces) {
   const CommandLine stream{"solve", "robot.cbc", "missions/mission.yaml", "--format", "jsonl"};
   CommandLine first = stream;
   first.insert(first.end(), {"--state-out", "state.json"});
   EXPECT_EQ(cbc(first).status, 0);
   CommandLine second = stream;
-  second.insert(second.end(), {"--state-in", "state.json"});
-  const Result log = cbc(second);
-  EXPECT_EQ(log.status, 0) << log.err;
-  folder.write("second.jsonl", log.out);
-  expect_protected({"solve", "--format", "jsonl", "--replay", "second.jsonl", "robot.cbc",
-                    "--state-in", "state.json", "--html"},
-                   "state.json");
+  second.insert(second.end(), {"--state-in", "state.json", "--state-out", "state.json"});
+  EXPECT_EQ(cbc(second).status, 0);
 }
 
 TEST_F(ProtectedInputs, AreScriptsThatWouldBeReplaced) {

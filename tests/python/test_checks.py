@@ -120,7 +120,7 @@ def test_no_program(monkeypatch):
 
 # What is not an option of a function: output goes to Python, and these are other commands.
 LEFT_OUT = {"help", "format", "output", "brief", "fix", "diff", "stdin_filename", "explain", "list_rules",
-            "write", "write_missing", "state_out", "state_in", "clock", "serve", "replay", "to_script", "against"}
+            "write", "write_missing", "state_out", "state_in", "clock", "serve", "replay", "to_script"}
 
 
 @pytest.mark.parametrize("check", [cbc.lint, cbc.solve, cbc.verify, cbc.coverage, cbc.sweep, cbc.tune])

@@ -32,13 +32,10 @@ constexpr auto header = object(
              "Only in a run without timeouts: the script, or the saved state that the stream "
              "continues from, has timeouts: false.",
              [](const Header& of) { return of.options.timeouts; }),
-    // Logs of older versions, without it, can be replayed.
-    required(optional("clock", WordList<2>{{"events", "real"}},
-                      "Which time lines without at or wait have: events, that of the event before; "
-                      "real, the time since the start of the program.",
-                      [](const Header& of) {
-                        return of.clock.empty() ? std::nullopt : std::optional(of.clock == "real");
-                      })),
+    member("clock", WordList<2>{{"events", "real"}},
+           "Which time lines without at or wait have: events, that of the event before; real, the "
+           "time since the start of the program.",
+           [](const Header& of) { return of.clock == "real"; }),
     member(
         "situation", event_situation,
         "What the script said of the situation before the first event: behaviors that could be "

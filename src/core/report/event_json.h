@@ -39,7 +39,7 @@ void append_event(std::string& text, const CompiledCatalog& catalog, const Expla
 
 /// `catalog_name`: the path of the catalog as the user gave it. `variables`: the values of the
 /// situation variables. Of the options a replay needs those that a script sets. `clock`: the
-/// word of the option; empty where a log has none.
+/// word of the option.
 [[nodiscard]] std::string stream_header(const CompiledCatalog& catalog,
                                         std::string_view catalog_name,
                                         const CoordinatorOptions& options,

@@ -104,7 +104,7 @@ std::optional<EventLog::Header> EventLog::read_header(std::string_view line) {
     if (reporter.errors() == 0 && digest != expected) {
       error_ = "it was made with another catalog, with the digest " + quote(digest) + "; that of " +
                quote(catalog_.file) + " is " + expected +
-               "; --replay LOG CATALOG --against compares what both decide";
+               "; --replay LOG CATALOG compares what both decide";
       return std::nullopt;
     }
     header.catalog = text_of(*root, "catalog", reporter);
@@ -114,12 +114,6 @@ std::optional<EventLog::Header> EventLog::read_header(std::string_view line) {
     }
     if (const Node* const timeouts = root->find("timeouts")) {
       header.timeouts = yaml::read_boolean(*timeouts, "timeouts", reporter).value_or(true);
-    }
-    if (const Node* const clock = root->find("clock")) {
-      constexpr std::array<std::string_view, 2> clocks = {"events", "real"};
-      if (const auto choice = yaml::read_choice(*clock, "clock", clocks, reporter)) {
-        header.clock = clocks[*choice];
-      }
     }
     if (const Node* const situation = require(*root, "situation", reporter)) {
       header.situation = reader_.read_situation(*situation, reporter);

@@ -59,8 +59,7 @@ class EventLog {
     std::string catalog;  ///< its path, as the user gave it
     Microseconds reactive_delay = 0;
     bool timeouts = true;
-    std::string_view clock;  ///< "events" or "real"; empty in logs of older versions
-    Situation situation;     ///< with the values of all variables
+    Situation situation;  ///< with the values of all variables
   };
   struct Entry {
     bool is_event = false;     ///< false: the answer to a line that was not an event

@@ -31,9 +31,7 @@ std::optional<Script> read_log(std::string_view text, const CompiledCatalog& cat
     }
     if (!entry->is_event) continue;
     if (std::exchange(is_first, false) && entry->index != 1) {
-      error = concat("line ", number,
-                     ": it continues from a saved state, which '--format jsonl "
-                     "--replay' needs with --state-in");
+      error = concat("line ", number, ": it continues from a saved state");
       return std::nullopt;
     }
     if (entry->time < last) {

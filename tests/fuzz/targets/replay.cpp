@@ -14,7 +14,6 @@ void run(const std::string& input) {
   const std::vector<std::string> parts = split_parts(input);
   if (parts.size() != 2) return;
   cli::SolveOptions options = bounded_options();
-  options.format = "jsonl";
   options.paths = {compiled_file_of(parts.front())};
   if (options.paths.front().empty()) return;
   options.stream.replay = "-";
