@@ -17,7 +17,6 @@ struct VerifyOptions {
   std::optional<std::string> scripts;
   std::optional<std::string> html;
   std::optional<std::uint64_t> jobs;
-  bool reduce = false;
   std::optional<std::string> same_as;
   std::vector<std::string> renamed;  ///< OLD=NEW
   bool allow_missing = false;

@@ -71,7 +71,6 @@ void add_verify_command(Program& program) {
   command.option("--html", options->html, further_output("FILE"),
                  "Also write a page with a timeline of all of them");
   command.jobs_option(options->jobs, "Explore with N threads");
-  command.flag("--reduce", options->reduce, "Merge states that differ only in orders of requests");
   command.add_confinement();
 
   command.option("--refused", options->refused, name_of("TASK", ValueKind::task),

@@ -236,7 +236,7 @@ class Call {
     of_verification.budget = result_.limits;
     of_verification.budget.tell = progress.listener();
     of_verification.jobs = thread_count(options_.jobs);
-    of_verification.reduce = options_.reduce;
+    of_verification.reduce = true;
     of_verification.outcomes = options_.outcomes;
     if (questions_.files.empty()) {
       result_.parts.push_back({nullptr, verify_groups(catalog_, of_verification), {}});

@@ -103,7 +103,7 @@ function isOptional(object, name) {
   if (name === 'behavior') return ['minimum_decided', 'minimum_removed', 'performance'].includes(object.kind);
   if (['effects', 'overrides'].includes(name)) return 'groups' in object; // of a report; not of a task
   if (name === 'script') return 'change' in object; // of a mutant; not of a property
-  const ofExplorations = ['file', 'groups', 'reduced', 'decided', 'states_at_depth', 'outcomes'];
+  const ofExplorations = ['file', 'groups', 'decided', 'states_at_depth', 'outcomes'];
   if (ofExplorations.includes(name)) return 'group' in object;
   if (name === 'error') return 'events' in object; // of a run; not of a line
   if (name === 'notes') return 'conflict' in object; // of a failed expectation; not of a report of lint

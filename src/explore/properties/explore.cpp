@@ -266,7 +266,6 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& 
   }
   result.complete = space.is_complete();
   result.decided = space.is_decided();
-  result.reduced = options.reduce;
   if (!result.complete && !result.decided) result.end = space.end();
   result.states = space.states();
   result.transitions = space.transitions();

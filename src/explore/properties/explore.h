@@ -44,7 +44,6 @@ struct Exploration {
   std::vector<GroupId> groups;     ///< ascending
   bool complete = false;           ///< all states were visited
   bool decided = false;            ///< it ended as soon as all properties were decided
-  bool reduced = false;            ///< see ExplorationOptions::reduce
   std::optional<Budget::End> end;  ///< the limit that ended it; if there was one
   std::uint64_t states = 0;
   std::uint64_t transitions = 0;

@@ -243,7 +243,6 @@ def verify(
     scripts: Optional[_Path] = None,
     html: Optional[_Path] = None,
     jobs: Optional[int] = None,
-    reduce: bool = False,
     confine: Optional[_Path] = None,
     refused: Optional[_Names] = None,
     outcomes: bool = False,

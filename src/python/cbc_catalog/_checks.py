@@ -22,7 +22,7 @@ def solve(*files, html=None, jobs=None, stats=False, confine=None, why=None, alt
     return run("solve", options.pop("files"), options)
 
 
-def verify(*files, scripts=None, html=None, jobs=None, reduce=False, confine=None, refused=None,
+def verify(*files, scripts=None, html=None, jobs=None, confine=None, refused=None,
            outcomes=False, same_as=None, renamed=None, allow_missing=False, max_states=None,
            max_memory=None, time_limit=None, cut_sets=None, order=None, in_some_situation=False,
            situation=None, effects=False, situations=False, fail_on=None, overrides=False):

@@ -77,10 +77,6 @@ constexpr auto exploration = object(
                 "All groups that are explored together; only if there are several.",
                 [](const Exploration& of) { return of.groups.size() > 1 ? &of.groups : nullptr; }),
             member("tasks", tasks, "All tasks, in catalog order.", tasks_of),
-            optional("reduced", always_true,
-                     "With --reduce: states that differ only in the order of requests that cannot "
-                     "interact count once.",
-                     &Exploration::reduced),
             member("complete", boolean,
                    "Whether every reachable state was visited; false: a limit ended the "
                    "exploration, or all properties were decided before.",

@@ -168,7 +168,7 @@ class GroupText {
     add_row(
         "explored",
         {quantity(exploration.states, "state"), quantity(exploration.transitions, "transition"),
-         fmt::format("depth {}{}", exploration.depth, exploration.reduced ? " (reduced)" : "")});
+         fmt::format("depth {}", exploration.depth)});
     if (!exploration.complete) {
       const Table table(text_.style(), row_columns(), {.columns = text_width});
       text_.add(
