@@ -19,24 +19,6 @@
 namespace cbc {
 namespace {
 
-/// Letters of other alphabets, and the characters of ASCII that they look like.
-struct Alphabet {
-  std::u32string_view letters;
-  std::u32string_view ascii;
-};
-
-constexpr std::array<Alphabet, 2> alphabets = {
-    {{U"АВЕЗКМНОРСТУХЅІЈԌԚԜҮӀЬбагеорсухѕіјԁһӏԛԝү", U"ABE3KMHOPCTYXSIJGQWYIb6areopcyxsijdhiqwy"},
-     {U"ΑΒΕΖΗΙΚΜΝΟΡΤΥΧϹͿαγινορσυϲϳ", U"ABEZHIKMNOPTYXCJayivopoucj"}}};
-
-char32_t to_ascii(char32_t c) {
-  for (const Alphabet& alphabet : alphabets) {
-    const std::size_t place = alphabet.letters.find(c);
-    if (place != std::u32string_view::npos) return alphabet.ascii[place];
-  }
-  return c;
-}
-
 char32_t to_small(char32_t c) {
   const bool is_latin = (c >= U'A' && c <= U'Z') || (c >= 0xC0 && c <= 0xDE && c != 0xD7);
   const bool is_greek = c >= 0x391 && c <= 0x3A9;
@@ -48,13 +30,12 @@ char32_t to_small(char32_t c) {
 char32_t keep(char32_t c) { return c; }
 
 char32_t to_shape(char32_t c) {
-  const char32_t shape = to_ascii(c);
-  if (shape == U'0') return U'O';
-  return shape == U'1' || shape == U'I' || shape == U'|' ? U'l' : shape;
+  if (c == U'0') return U'O';
+  return c == U'1' || c == U'I' || c == U'|' ? U'l' : c;
 }
 
 /// Letters that look alike in the other case only, such as '1' and 'L', stay different.
-char32_t to_small_shape(char32_t c) { return c == U'0' ? U'o' : to_small(to_ascii(c)); }
+char32_t to_small_shape(char32_t c) { return c == U'0' ? U'o' : to_small(c); }
 
 /// A way to spell a character.
 using Spelling = char32_t (*)(char32_t);
@@ -72,9 +53,10 @@ std::u32string visible_part_of(std::string_view name) {
   return text;
 }
 
+constexpr std::u32string_view separators = U" _-./";
+
 /// Each character spelled in a certain way. If `joins`, whatever separates two words is '_'.
 std::u32string spelled(std::u32string_view text, Spelling spell, bool joins) {
-  constexpr std::u32string_view separators = U" _-./";
   std::u32string result;
   bool follows_separator = false;
   for (const char32_t c : text) {
@@ -96,17 +78,40 @@ std::string code_point(char32_t character) {
   return "U+" + text;
 }
 
-/// The first character of a name that cannot be seen, "character 5 is U+200B", or nothing.
-std::optional<std::string> invisible_part_of(std::string_view name) {
+enum class Script : std::uint8_t { none, latin, greek, cyrillic };
+constexpr std::array<std::string_view, 4> script_names = {"", "Latin", "Greek", "Cyrillic"};
+
+Script script_of(char32_t c) {
+  const char32_t small = to_small(c);
+  if ((small >= U'a' && small <= U'z') || (c >= 0xC0 && c <= 0x24F)) return Script::latin;
+  if (c >= 0x370 && c <= 0x3FF) return Script::greek;
+  return c >= 0x400 && c <= 0x52F ? Script::cyrillic : Script::none;
+}
+
+/// What makes a name deceive by itself: a character that cannot be seen, or letters of two scripts
+/// in one word. Or nothing.
+std::string deceit_of(std::string_view name) {
+  Script script = Script::none;
   std::size_t number = 1;
   for (std::size_t offset = 0; offset < name.size(); ++number) {
     const utf8::Decoded decoded = utf8::decode(name, offset);
-    if (decoded.valid && is_invisible(decoded.character)) {
-      return "character " + std::to_string(number) + " is " + code_point(decoded.character);
+    const char32_t c = decoded.character;
+    const auto place = [&] {
+      return "character " + std::to_string(number) + " is " + code_point(c);
+    };
+    if (decoded.valid && is_invisible(c)) {
+      return " has a character that cannot be seen: " + place();
     }
+    const Script found = script_of(c);
+    if (found != Script::none && script != Script::none && found != script) {
+      return concat(" mixes ", script_names[static_cast<std::size_t>(script)], " and ",
+                    script_names[static_cast<std::size_t>(found)], " letters in a word: ", place());
+    }
+    if (found != Script::none) script = found;
+    if (separators.find(c) != std::u32string_view::npos) script = Script::none;
     offset += decoded.bytes;
   }
-  return std::nullopt;
+  return {};
 }
 
 /// How two names that look alike differ: "they differ only in upper and lower case".
@@ -140,8 +145,8 @@ std::string difference_of(std::string_view name, std::string_view other) {
 
 /// Reports names of one kind that people take for one another. They differ only in upper and lower
 /// case, in what separates their words, in characters that look alike in many fonts ('0' and 'O';
-/// '1', 'l' and 'I'; a letter of ASCII and what looks like it), or in characters that cannot be
-/// seen.
+/// '1', 'l' and 'I'), or in characters that cannot be seen. Which letters of two scripts look alike
+/// is a matter of fonts; a word with letters of both is reported, whatever it looks like.
 class NameCheck {
  public:
   explicit NameCheck(Reporter& reporter) : reporter_(reporter) {}
@@ -152,9 +157,8 @@ class NameCheck {
     const std::optional<std::size_t> found = find_like(name);
     names_.push_back({kind + " " + quote(name), name, range});
     if (!found) {
-      if (const auto part = invisible_part_of(name)) {
-        reporter_.report(rule::confusable_name, range,
-                         names_.back().shown + " has a character that cannot be seen: " + *part);
+      if (const std::string deceit = deceit_of(name); !deceit.empty()) {
+        reporter_.report(rule::confusable_name, range, names_.back().shown + deceit);
       }
       return;
     }
