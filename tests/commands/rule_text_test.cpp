@@ -33,14 +33,6 @@ TEST(RuleText, StressesHeadings) {
   EXPECT_NE(text.find("\x1b[1mExample:\x1b[0m\n"), std::string::npos);
 }
 
-TEST(RuleText, SaysIfTheRuleIsOff) {
-  Rule rule = rule::dead_task;
-  EXPECT_TRUE(rule_text(rule, plain_style()).starts_with("dead-task (warning)\n"));
-  rule.is_off = true;
-  EXPECT_TRUE(rule_text(rule, plain_style())
-                  .starts_with("dead-task (warning; off unless settings ask for it)\n"));
-}
-
 TEST(RuleText, FitsATerminal) {
   for (const Rule& rule : all_rules()) {
     for (const std::string& line : lines_of(rule_text(rule, plain_style()))) {

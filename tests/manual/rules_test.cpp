@@ -29,7 +29,6 @@ std::string describe_severity(const Rule& rule) {
   const std::string name(name_of(rule.severity));
   const std::string article = rule.severity == Severity::error ? "An " : "A ";
   return article + name + (rule.is_fixed ? ", which settings cannot change" : "") +
-         (rule.is_off ? ", which is off unless settings ask for it" : "") +
          (rule.is_of_scripts ? "; in event scripts.\n" : ".\n");
 }
 

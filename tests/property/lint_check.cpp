@@ -35,7 +35,6 @@ class Checker {
     check_dead_findings();
     check_explanations();
     check_repetitions();
-    check_redundant_minimums();
     for (std::size_t behavior = 0; behavior < catalog_.behaviors.size(); ++behavior) {
       check_redundancy(behavior);
       check_on_request(behavior);
@@ -420,36 +419,6 @@ class Checker {
     }
   }
 
-  // Redundant minimums
-
-  // Whether no assignment without a minimum misses it.
-  bool is_reached_anyway(std::size_t group, std::size_t behavior, std::size_t task) const {
-    const ConstraintSet own = oracle_.those(group, [&](const Constraint& constraint) {
-      return constraint.kind == Constraint::Kind::performance && constraint.behavior == behavior &&
-             constraint.task == task;
-    });
-    return own != 0 && !oracle_.any(group, oracle_.all(group) & ~own,
-                                    [own](const Row& row) { return (row.violated & own) != 0; });
-  }
-
-  void check_redundant_minimums() const {
-    for_each_entry([this](const RequirementEntry& entry) {
-      const std::size_t task = requirement(entry).task;
-      const bool is_redundant =
-          strongest(entry.behavior, task) == entry.place &&
-          !dead_behaviors_.contains(entry.behavior) &&
-          is_reached_anyway(oracle_.group_of_behavior(entry.behavior), entry.behavior, task);
-      demand(findings_.redundant_minimums.contains(entry) == is_redundant,
-             "redundant-minimum is wrong about " + name_of(entry));
-    });
-    for (std::size_t task = 0; task < catalog_.tasks.size(); ++task) {
-      const bool is_redundant =
-          !dead_tasks_.contains(task) && is_reached_anyway(facts_.group_of[task], none, task);
-      demand(findings_.redundant_task_minimums.contains(task) == is_redundant,
-             "redundant-minimum is wrong about task " + name_of_task(task));
-    }
-  }
-
   // Whether a requirement has a minimum that no assignment misses, whatever minimums there are.
   bool is_margin(std::size_t group, std::size_t behavior, std::size_t task) const {
     const ConstraintSet minimums = oracle_.those(group, [](const Constraint& constraint) {
@@ -545,8 +514,6 @@ class Checker {
     count(!findings_.dead_behaviors.empty(), "dead-behavior");
     count(!findings_.redundant.empty(), "redundant-requirement");
     count(!findings_.repeated.empty(), "redundant-requirement: repeated");
-    count(!findings_.redundant_minimums.empty(), "redundant-minimum");
-    count(!findings_.redundant_task_minimums.empty(), "redundant-minimum of a task");
     count(!findings_.on_request.empty(), "requires-on-request");
     count(dead_behaviors_.empty() && dead_tasks_.empty(), "nothing is dead");
     for (const auto& [entry, reason] : findings_.redundant) {

@@ -118,8 +118,6 @@ class FindingReader {
       add(findings_.dead_behaviors, dead, read_reason(finding, oracle_.group_of_behavior(dead)));
     } else if (finding.rule == "redundant-requirement") {
       read_redundant(finding);
-    } else if (finding.rule == "redundant-minimum") {
-      read_redundant_minimum(finding);
     } else if (finding.rule == "requires-on-request") {
       read_on_request(finding);
     } else {
@@ -197,15 +195,6 @@ class FindingReader {
     }
     add(findings_.redundant, entry,
         read_reason(finding, oracle_.group_of_behavior(entry.behavior)));
-  }
-
-  void read_redundant_minimum(const Diagnostic& finding) {
-    const auto entry = find_entry(finding.range, &Places::Entry::minimum);
-    const bool is_new =
-        entry ? findings_.redundant_minimums.insert(*entry).second
-              : findings_.redundant_task_minimums.insert(find(places_.task_minimums, finding.range))
-                    .second;
-    demand(is_new, "given twice");
   }
 
   void read_on_request(const Diagnostic& finding) {
@@ -296,7 +285,7 @@ Findings lint_findings(const LintOracle& oracle, const std::string& yaml) {
   Diagnostics diagnostics;
   const auto document = yaml::parse(yaml, "catalog.yaml", diagnostics);
   demand(document != nullptr, "not YAML");
-  const CheckedCatalog result = lint_catalog(*document, {.checks_off_rules = true}, diagnostics);
+  const CheckedCatalog result = lint_catalog(*document, {}, diagnostics);
   demand(result.compiled != nullptr, "not understood");
   FindingReader reader(oracle, document->root());
   for (const Diagnostic& finding : diagnostics.all()) {

@@ -31,8 +31,6 @@ struct Findings {
   std::map<std::size_t, ConstraintSet> dead_behaviors;       // with the reason
   std::map<RequirementEntry, ConstraintSet> redundant;       // with the reason
   std::vector<RequirementEntry> repeated;
-  std::set<RequirementEntry> redundant_minimums;
-  std::set<std::size_t> redundant_task_minimums;
   std::map<RequirementEntry, std::vector<std::size_t>> on_request;  // what to request, in order
 };
 

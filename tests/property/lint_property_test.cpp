@@ -64,8 +64,6 @@ const LowerBound lint_lower_bounds[] = {
     {"redundant-requirement: reason of 4", 15},
     {"redundant-requirement: reason of 5 or more", 4},
     {"redundant-requirement: repeated", 120},
-    {"redundant-minimum", 100},
-    {"redundant-minimum of a task", 50},
     {"requires-on-request", 350},
     {"requires-on-request: more than one request", 90},
     {"nothing is dead", 200},

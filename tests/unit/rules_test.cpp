@@ -55,7 +55,6 @@ std::vector<Diagnostic> findings_of(const Rule& rule, std::string_view text,
   }
   const CommentedFile file{"example.yaml", text, document.get(), is_complete};
   SeveritySettings settings;
-  if (rule.is_off) settings.set(rule, RuleSetting::note);
   return control_findings(diagnostics.release(), file, settings);
 }
 
@@ -194,18 +193,17 @@ TEST_P(EveryRule, SpeaksOfBehaviors) {
 TEST_P(EveryRule, HasAnExampleThatBreaksItAlone) {
   LintOptions options;
   if (rule().name == rule::undecided) options.max_nodes = 1;
-  options.checks_off_rules = true;
   EXPECT_EQ(rules_found(rule(), rule().example, options), Names{rule().name});
 }
 
 TEST_P(EveryRule, HasAnExampleThatIsMended) {
-  EXPECT_EQ(rules_found(rule(), rule().mended, {.checks_off_rules = true}), Names{});
+  EXPECT_EQ(rules_found(rule(), rule().mended, {}), Names{});
 }
 
 TEST_P(EveryRule, IsCheckedWithoutSearchIfItNeedsNone) {
   if (rule().is_of_scripts || rule().name == rule::undecided) return;
   const bool is_found =
-      !rules_found(rule(), rule().example, {.depth = CheckDepth::rules, .checks_off_rules = true})
+      !rules_found(rule(), rule().example, {.depth = CheckDepth::rules})
            .empty();
   // Of unused-allow the search decides whether a comment is used.
   EXPECT_EQ(is_found, !rule().needs_search);

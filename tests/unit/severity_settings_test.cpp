@@ -101,18 +101,14 @@ TEST(SeveritySettings, TheStrongerOnesWin) {
   EXPECT_EQ(severity(settings, rule::dead_task), "warning");
 }
 
-TEST(SeveritySettings, TurnRulesOn) {
+TEST(SeveritySettings, TurnFindingsOn) {
   const Standing off{Severity::note, false, true};
-  const std::string name(rule::redundant_minimum.name);
-  EXPECT_EQ(severity(SeveritySettings(), rule::redundant_minimum, off), "none");
-  EXPECT_FALSE(SeveritySettings().turn_on_rules());
-  EXPECT_EQ(severity(read({.note = {name}}), rule::redundant_minimum, off), "note");
-  EXPECT_EQ(severity(read({.warn = {name}}), rule::redundant_minimum, off), "warning");
-  EXPECT_EQ(severity(read({.error = {name}}), rule::redundant_minimum, off), "error");
-  EXPECT_EQ(severity(read({.allow = {name}}), rule::redundant_minimum, off), "none");
-  EXPECT_TRUE(read({.note = {name}}).turn_on_rules());
-  EXPECT_FALSE(read({.allow = {name}}).turn_on_rules());
-  EXPECT_FALSE(read({.note = {"dead-task"}}).turn_on_rules());
+  const std::string name(rule::required_goal.name);
+  EXPECT_EQ(severity(SeveritySettings(), rule::required_goal, off), "none");
+  EXPECT_EQ(severity(read({.note = {name}}), rule::required_goal, off), "note");
+  EXPECT_EQ(severity(read({.warn = {name}}), rule::required_goal, off), "warning");
+  EXPECT_EQ(severity(read({.error = {name}}), rule::required_goal, off), "error");
+  EXPECT_EQ(severity(read({.allow = {name}}), rule::required_goal, off), "none");
 }
 
 TEST(SeveritySettings, AddFailures) {
@@ -129,7 +125,7 @@ TEST(SeveritySettings, AddFailures) {
 TEST(SeveritySettings, NeedASearchOnlyForWhatMayFail) {
   EXPECT_FALSE(SeveritySettings().need_search());
   EXPECT_FALSE(read({.error = {"required-goal"}}).need_search());
-  EXPECT_FALSE(read({.warn = {"undecided"}, .note = {"redundant-minimum"}}).need_search());
+  EXPECT_FALSE(read({.warn = {"undecided"}}).need_search());
   for (const Rule& rule : all_rules()) {
     const std::string name(rule.name);
     // There are findings of this one only if the settings say what to look for.

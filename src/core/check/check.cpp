@@ -536,15 +536,13 @@ CheckedCatalog check_catalog(const yaml::Document& document, std::string_view te
                              const SeveritySettings& settings, LintOptions options,
                              Diagnostics diagnostics) {
   options.never_together = settings.never_together();
-  options.checks_off_rules = settings.turn_on_rules();
   options.control = [&](std::vector<Diagnostic> findings) {
     return control_findings(std::move(findings), {document.file(), text, &document, false},
                             settings);
   };
   CheckedCatalog checked = lint_catalog(document, options, diagnostics);
   checked.errors = diagnostics.count(Severity::error);
-  const CommentedFile file{document.file(), text, &document, checked.compiled != nullptr,
-                           options.checks_off_rules};
+  const CommentedFile file{document.file(), text, &document, checked.compiled != nullptr};
   checked.findings = control_findings(diagnostics.release(), file, settings);
   return checked;
 }

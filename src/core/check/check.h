@@ -30,8 +30,6 @@ struct LintOptions {
   /// What the rule `can-run-together` checks; must outlive the check.
   std::span<const NeverTogether> never_together = {};
   CheckDepth depth = CheckDepth::searches;
-  /// Whether rules that are off unless settings ask for them are checked, too.
-  bool checks_off_rules = false;
   /// Returns those of some findings that are reported; empty: all of them are. What is wrong behind
   /// a finding is looked for if it is not reported.
   std::function<std::vector<Diagnostic>(std::vector<Diagnostic>)> control = {};

@@ -113,7 +113,6 @@ std::optional<Severity> SeveritySettings::severity_by(const Rule& rule) const {
   finding.rule = rule.name;
   finding.severity = rule.severity;
   finding.is_fixed = rule.is_fixed;
-  finding.is_off = rule.is_off;
   return severity_of(finding);
 }
 
@@ -132,13 +131,6 @@ bool SeveritySettings::add_failures() const {
     const bool is_of_settings = rule.name == rule::can_run_together.name;
     return (rule.severity != Severity::error || is_of_settings) && severity &&
            is_failure(*severity);
-  });
-}
-
-bool SeveritySettings::turn_on_rules() const {
-  const std::span<const Rule> rules = all_rules();
-  return std::any_of(rules.begin(), rules.end(), [this](const Rule& rule) {
-    return rule.is_off && severity_by(rule).has_value();
   });
 }
 
@@ -533,11 +525,6 @@ void filter(Diagnostics& findings, std::vector<Allow>& allows, Diagnostics& kept
   }
 }
 
-/// Whether it is known that an allow that was not used is not needed.
-bool is_decided(const Allow& allow, const CommentedFile& file) {
-  return file.is_complete && (file.checks_off_rules || !allow.rule->is_off);
-}
-
 }  // namespace
 
 std::vector<Diagnostic> apply_allow_comments(std::vector<Diagnostic> findings,
@@ -552,7 +539,7 @@ std::vector<Diagnostic> apply_allow_comments(std::vector<Diagnostic> findings,
   for (const Allow& allow : allows) {
     if (allow.rule->is_fixed) {
       reporter.report(rule::unused_allow, allow.range, describe_fixed(*allow.rule));
-    } else if (!allow.is_used && is_decided(allow, file)) {
+    } else if (!allow.is_used && file.is_complete) {
       reporter.report(rule::unused_allow, allow.range,
                       "no finding of rule " + quote(allow.rule->name) + " needs this comment");
     }

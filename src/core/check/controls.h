@@ -71,8 +71,6 @@ class SeveritySettings {
   /// search, by any rule.
   [[nodiscard]] bool need_search() const;
   [[nodiscard]] bool add_failures() const;
-  /// Whether rules that are off without settings are to be checked.
-  [[nodiscard]] bool turn_on_rules() const;
 
  private:
   [[nodiscard]] std::optional<Severity> severity_by(const Rule& rule) const;
@@ -110,7 +108,7 @@ inline constexpr std::string_view settings_file_name = ".cbc.yaml";
 ///
 ///     error: [unknown-key, dead-behavior]
 ///     warn: [exclusive-requirement]
-///     note: [redundant-minimum]
+///     note: [dead-task]
 ///     allow: [required-goal]
 ///     strict: true
 ///     never_together:
@@ -135,8 +133,6 @@ struct CommentedFile {
   const yaml::Document* document = nullptr;  ///< of the text, if it is valid YAML
   /// Whether every rule could be decided. If not, an allow without a finding may still be needed.
   bool is_complete = true;
-  /// The same for rules that are off unless settings ask for them.
-  bool checks_off_rules = false;
 };
 
 /// Removes the findings of a file that comments of the file allow:

@@ -589,7 +589,6 @@ void check_by_proof(const CatalogReading& reading, const CompiledCatalog& compil
   if (reading.is_complete) {
     check_situations(proof);
     RedundancyCheck(proof).check();
-    if (options.checks_off_rules) check_redundant_minimums(proof);
   }
   check_together(proof, options, reading.is_complete);
 }

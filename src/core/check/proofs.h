@@ -34,8 +34,6 @@ class ProofContext;
 /// they require, in no situation.
 void check_situations(ProofContext& proof);
 
-/// One of these checks: minimum performances that are reached anyway.
-void check_redundant_minimums(ProofContext& proof);
 
 /// The checks about tasks that run at the same time. `is_complete`: all of the catalog was
 /// understood.

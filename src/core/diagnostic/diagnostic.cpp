@@ -41,7 +41,7 @@ std::size_t Diagnostics::count(Severity severity) const {
 
 void Reporter::report(const Rule& rule, const Range& range, std::string message,
                       std::vector<Note> notes, std::vector<Edit> edits) {
-  report_as({rule.severity, rule.is_fixed, rule.is_off}, rule, range, std::move(message),
+  report_as({rule.severity, rule.is_fixed}, rule, range, std::move(message),
             std::move(notes), std::move(edits));
 }
 

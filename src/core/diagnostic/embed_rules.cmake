@@ -11,8 +11,8 @@
 # are taken as they are.
 cmake_minimum_required(VERSION 3.21)
 
-set(flags fixed off needs-search of-scripts)
-set(members is_fixed is_off needs_search is_of_scripts) # of the flags
+set(flags fixed needs-search of-scripts)
+set(members is_fixed needs_search is_of_scripts) # of the flags
 
 # fail(TEXT): names the file.
 function(fail text)

@@ -14,7 +14,6 @@ struct Rule {
   Severity severity = Severity::error;  ///< unless the settings say otherwise
   /// A file that breaks the rule has no meaning, so the severity cannot be lowered.
   bool is_fixed = false;
-  bool is_off = false;  ///< there are no findings, unless settings ask for them
   /// It takes a search, or all other rules, so that only lint checks it always; compile and solve
   /// do only if settings let it fail.
   bool needs_search = false;

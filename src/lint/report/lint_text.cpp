@@ -42,9 +42,7 @@ std::string example_text(std::string_view heading, std::string_view example, con
 std::string rule_text(const Rule& rule, const Style& style) {
   std::string text =
       fmt::format("{}{}{} ({}{})\n\n", style.strong, rule.name, style.reset, name_of(rule.severity),
-                  rule.is_fixed ? "; settings cannot change it"
-                  : rule.is_off ? "; off unless settings ask for it"
-                                : "");
+                  rule.is_fixed ? "; settings cannot change it" : "");
   text += paragraph(rule.summary);
   for (std::string_view rest = rule.explanation; !rest.empty();) {
     text += '\n' + paragraph(take_until("\n\n", rest));
@@ -64,7 +62,7 @@ std::string rule_list(const Style& style) {
   for (const Severity severity : {Severity::error, Severity::warning, Severity::note}) {
     for (const Rule& rule : all_rules()) {
       if (rule.severity != severity) continue;
-      table.add({{rule.name, style.strong}, rule.is_off ? "off" : name_of(severity), rule.summary});
+      table.add({{rule.name, style.strong}, name_of(severity), rule.summary});
     }
   }
   return table.text();

@@ -38,11 +38,7 @@ void compile_and_run(const CompiledCatalog& catalog) {
 }
 
 void run(const std::string& input) {
-  // All rules, those that are off, too.
-  SeveritySettings settings;
-  for (const Rule& rule : all_rules()) {
-    if (rule.is_off) settings.set(rule, RuleSetting::warn);
-  }
+  const SeveritySettings settings;
   const LintedCatalog linted = lint(input, settings);
   report(linted.file);
   fix(linted, settings);
