@@ -17,7 +17,6 @@ struct TuneOptions {
   std::vector<std::string> only;  ///< BEHAVIOR:TASK; empty: all numbers
   std::string fail_under;         ///< percent; empty: whatever they are
   std::string margin = "0";       ///< percent
-  bool pairs = false;
   bool write = false;
   std::optional<std::uint64_t> jobs;
   bool all_states = false;

@@ -57,10 +57,7 @@ void add_tune_command(Program& program) {
       .option("--margin", options->margin, percent(),
               "Stay so far away from values with which one fails")
       .not_with({"--all-states"}, "there are no expectations");
-  command.flag("--pairs", options->pairs, "If no number is enough, try two")
-      .not_with({"--all-states"}, "there are no expectations");
   command.flag("--write", options->write, "Change the number in the catalog that changes least")
-      .not_with({"--pairs"}, "it changes one number")
       .not_with({"--all-states"}, "there are no expectations")
       .only_with_values("--format", {"text"});
   command.action([options] { return tune(*options); });

@@ -1,7 +1,4 @@
-#include <algorithm>
 #include <memory>
-#include <set>
-#include <utility>
 
 #include <fmt/core.h>
 
@@ -29,20 +26,6 @@ bool can_tune(const std::vector<Mission>& missions) {
     return false;
   }
   return has_numbers(*first.source);
-}
-
-void try_pairs(const Tuner& tuner, const TuneOptions& options, TuneResult& result) {
-  std::vector<PairRepair>& pairs = result.pairs.emplace();
-  const auto found = for_each_number("trying pairs with", result, options, [&](std::size_t number) {
-    return tuner.repairs_of_pairs(number);
-  });
-  for (const auto& of_number : found) pairs.insert(pairs.end(), of_number.begin(), of_number.end());
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const PairRepair& a, const PairRepair& b) { return a.change < b.change; });
-  std::set<std::pair<std::size_t, std::size_t>> known;
-  std::erase_if(pairs, [&](const PairRepair& pair) {
-    return !known.insert(std::minmax(pair.first, pair.second)).second;
-  });
 }
 
 /// Writes the repair that changes least.
@@ -86,9 +69,6 @@ int tune(const TuneOptions& options) {
     return TunedNumber{tuner.tolerance(number), tuner.repairs(number),
                        !(*numbers)[number].uses.empty()};
   });
-  if (options.pairs && !tuner.present().failures.empty() && nearest_repairs(result).empty()) {
-    try_pairs(tuner, options, result);
-  }
   if (const int status = write_reports(result, options); status != exit_ok) return status;
   const bool is_to_be_repaired = options.write && !result.present.failures.empty();
   return is_to_be_repaired ? write_repair(result, source, scripts) : status_of(result);

@@ -36,7 +36,6 @@ using nlohmann::ordered_json;
 constexpr std::uint64_t default_cases = 60;
 constexpr std::size_t numbers_per_case = 4;
 constexpr std::size_t values_inside = 4;
-constexpr std::size_t most_events_of_pairs = 20;  // as the pieces of two numbers are multiplied
 
 /// What the oracle makes of a mission.
 struct Run {
@@ -262,15 +261,6 @@ void check_case(const Case& generated, Random& random, Statistics& statistics) {
     check.check(tuner.tolerance(place));
     if (!fails) continue;
     check.check(tuner.repairs(place));
-    if (generated.script.events.size() > most_events_of_pairs) continue;
-    for (const PairRepair& pair : tuner.repairs_of_pairs(place)) {
-      Sample changed = sample;
-      changed.set(numbers[pair.first], pair.first_value);
-      for (const Millionths value : {pair.values.low, pair.nearest, pair.values.high}) {
-        demand(changed.run_with(numbers[pair.second], value).values == expected, "a pair");
-      }
-      statistics.count("pair");
-    }
   }
 }
 
@@ -306,7 +296,6 @@ const LowerBound lower_bounds[] = {
     {"repair", 90},
     {"repair of several pairs", 10},
     {"repair of a minimum", 10},
-    {"pair", 500},
 };
 
 TEST(Tune, TolerancesAndRepairsAreThoseOfTheOracle) {

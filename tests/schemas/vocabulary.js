@@ -95,7 +95,7 @@ function isStop(object) {
 function isOptional(object, name) {
   if (name === 'task') return 'verb' in object; // of a finish; not of what is about tasks
   if (['conflict', 'message'].includes(name)) return isStop(object);
-  if (['pairs', 'states'].includes(name)) return 'numbers' in object; // of a tuning; not of others
+  if (name === 'states') return 'numbers' in object; // of a tuning; not of others
   if (['breaks', 'moves'].includes(name)) return 'instead' in object; // of a tuning
   if (name === 'together') return 'constraints' in object || 'never' in object; // not of a pair
   if (name === 'situation') return object.kind === 'behavior' || 'event' in object;

@@ -313,5 +313,4 @@ def tune(
     max_memory: Optional[str] = None,
     time_limit: Optional[float] = None,
     margin: Optional[float] = None,
-    pairs: bool = False,
 ) -> Report: ...

@@ -50,7 +50,7 @@ def sweep(*files, jobs=None, stats=False, slowest=None, slowest_by_time=None, me
 
 
 def tune(*files, html=None, only=None, fail_under=None, jobs=None, confine=None, all_states=False,
-         max_states=None, max_memory=None, time_limit=None, margin=None, pairs=False):
+         max_states=None, max_memory=None, time_limit=None, margin=None):
     """How wrong each number of a catalog may be: cbc-tune(1)."""
     options = locals()
     return run("tune", options.pop("files"), options)

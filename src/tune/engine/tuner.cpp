@@ -24,8 +24,6 @@ namespace {
 
 constexpr std::size_t most_pieces = 100'000;
 
-Millionths apart(Millionths a, Millionths b) { return a > b ? a - b : b - a; }
-
 }  // namespace
 
 Millionths Interval::nearest(Millionths value, Millionths margin) const {
@@ -60,7 +58,7 @@ Tuner::Tuner(const Catalog& catalog, const std::vector<TunableNumber>& numbers, 
 Tolerance Tuner::tolerance(std::size_t number) const {
   Tolerance tolerance;
   const auto find_end = [&](bool upwards, Millionths& end, std::optional<RunDifference>& beyond) {
-    visit_pieces({catalog_, present_}, number, upwards, Until::end,
+    visit_pieces(present_, number, upwards, Until::end,
                  [&](const Recording& recording, Interval piece) {
                    if (&recording != &present_) beyond = find_difference(present_, recording);
                    if (!beyond) end = upwards ? piece.high : piece.low;
@@ -74,73 +72,10 @@ Tolerance Tuner::tolerance(std::size_t number) const {
 
 Repairs Tuner::repairs(std::size_t number) const {
   if (present_.failures.empty()) return {};
-  Repairs repairs = find_repairs({catalog_, first_failure_}, number);
-  for (NumberRepair& repair : repairs.intervals) {
-    Catalog changed = catalog_;
-    set_number(changed, numbers_[number], repair.nearest);
-    const Recording recording = run(changed, Until::end);
-    for (std::size_t mission = 0; mission < missions_.size(); ++mission) {
-      repair.changed.push_back(differing_lines(present_, recording, mission));
-    }
-  }
-  return repairs;
-}
-
-std::vector<PairRepair> Tuner::repairs_of_pairs(std::size_t first) const {
-  std::vector<std::optional<PairRepair>> best(numbers_.size());
-  for (const bool upwards : {false, true}) {
-    visit_pieces(
-        {catalog_, first_failure_}, first, upwards, Until::failure,
-        [&](const Recording& recording, Interval piece) {
-          if (&recording == &first_failure_) return true;
-          const Millionths value = upwards ? piece.low : piece.high;
-          Catalog changed = catalog_;
-          set_number(changed, numbers_[first], value);
-          for (std::size_t other = 0; other < numbers_.size(); ++other) {
-            if (other == first) continue;
-            for (const NumberRepair& repair : find_repairs({changed, recording}, other).intervals) {
-              const Millionths change = apart(numbers_[first].value, value) +
-                                        apart(numbers_[other].value, repair.nearest);
-              if (best[other] && best[other]->change <= change) continue;
-              best[other] = {first, value, other, repair.values, repair.nearest, change};
-            }
-          }
-          return true;
-        });
-  }
-  std::vector<PairRepair> pairs;
-  for (const auto& pair : best) {
-    if (pair) pairs.push_back(*pair);
-  }
-  return pairs;
-}
-
-/// Visits the piece of the present value, and those beyond it, until `visit` returns false. False
-/// if there are too many.
-bool Tuner::visit_pieces(Start start, std::size_t number, bool upwards, Until until,
-                         const Visit& visit) const {
-  const TunableNumber& changed = numbers_[number];
-  const Recording* recording = &start.recording;
-  Recording further;
-  Millionths value = changed.value;
-  for (std::size_t count = 0; count < most_pieces; ++count) {
-    const Millionths end = last_unchanged(start.catalog, changed, value, recording->catalog,
-                                          recording->decisions, upwards);
-    if (!visit(*recording, {std::min(value, end), std::max(value, end)})) return true;
-    if (end == (upwards ? one_million : 0)) return true;
-    value = upwards ? end + 1 : end - 1;
-    set_number(start.catalog, changed, value);
-    further = run(start.catalog, until);
-    recording = &further;
-  }
-  return false;
-}
-
-Repairs Tuner::find_repairs(const Start& start, std::size_t number) const {
   Repairs repairs;
   std::vector<Interval> found;
   for (const bool upwards : {false, true}) {
-    repairs.is_complete &= visit_pieces(start, number, upwards, Until::failure,
+    repairs.is_complete &= visit_pieces(first_failure_, number, upwards, Until::failure,
                                         [&](const Recording& recording, Interval piece) {
                                           if (recording.holds()) found.push_back(piece);
                                           return true;
@@ -157,8 +92,36 @@ Repairs Tuner::find_repairs(const Start& start, std::size_t number) const {
   }
   for (NumberRepair& repair : repairs.intervals) {
     repair.nearest = repair.values.nearest(numbers_[number].value, margin_);
+    Catalog changed = catalog_;
+    set_number(changed, numbers_[number], repair.nearest);
+    const Recording recording = run(changed, Until::end);
+    for (std::size_t mission = 0; mission < missions_.size(); ++mission) {
+      repair.changed.push_back(differing_lines(present_, recording, mission));
+    }
   }
   return repairs;
+}
+
+/// Visits the piece of the present value, and those beyond it, until `visit` returns false. False
+/// if there are too many.
+bool Tuner::visit_pieces(const Recording& present, std::size_t number, bool upwards, Until until,
+                         const Visit& visit) const {
+  const TunableNumber& changed = numbers_[number];
+  Catalog catalog = catalog_;
+  const Recording* recording = &present;
+  Recording further;
+  Millionths value = changed.value;
+  for (std::size_t count = 0; count < most_pieces; ++count) {
+    const Millionths end =
+        last_unchanged(catalog, changed, value, recording->catalog, recording->decisions, upwards);
+    if (!visit(*recording, {std::min(value, end), std::max(value, end)})) return true;
+    if (end == (upwards ? one_million : 0)) return true;
+    value = upwards ? end + 1 : end - 1;
+    set_number(catalog, changed, value);
+    further = run(catalog, until);
+    recording = &further;
+  }
+  return false;
 }
 
 Recording Tuner::run(const Catalog& catalog, Until until) const {

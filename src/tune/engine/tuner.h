@@ -43,16 +43,6 @@ struct Repairs {
   bool is_complete = true;              ///< all values were looked at
 };
 
-/// Two numbers with which all expectations hold, if both change. Numbers are places in the list.
-struct PairRepair {
-  std::size_t first = 0;
-  Millionths first_value = 0;
-  std::size_t second = 0;
-  Interval values;  ///< of the second one
-  Millionths nearest = 0;
-  Millionths change = 0;  ///< of both
-};
-
 /// Changes the numbers of a catalog, one at a time, and runs its missions. May be asked by several
 /// threads at once.
 class Tuner {
@@ -67,19 +57,11 @@ class Tuner {
   [[nodiscard]] Tolerance tolerance(std::size_t number) const;
   /// Where expectations fail.
   [[nodiscard]] Repairs repairs(std::size_t number) const;
-  /// Pairs with a value of the first number at which another piece of it begins: for each second
-  /// number the one with the smallest changes.
-  [[nodiscard]] std::vector<PairRepair> repairs_of_pairs(std::size_t first) const;
 
  private:
   using Visit = std::function<bool(const Recording& recording, Interval piece)>;
-  struct Start {
-    Catalog catalog;
-    const Recording& recording;
-  };
-  bool visit_pieces(Start start, std::size_t number, bool upwards, Until until,
+  bool visit_pieces(const Recording& present, std::size_t number, bool upwards, Until until,
                     const Visit& visit) const;
-  [[nodiscard]] Repairs find_repairs(const Start& start, std::size_t number) const;
   [[nodiscard]] Recording run(const Catalog& catalog, Until until) const;
 
   const Catalog& catalog_;

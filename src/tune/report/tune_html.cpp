@@ -56,7 +56,8 @@ std::string failures_of(const TuneResult& result) {
     html += fmt::format("<li>{}</li>\n", xml_text(describe(result, failure)));
   }
   html += fmt::format("</ul>\n<p>{}</p>\n", describe_repairs(result));
-  return has_repairs(result) ? html + repairs_table(result, plain_style()).html("repairs") : html;
+  if (nearest_repairs(result).empty()) return html;
+  return html + repairs_table(result, plain_style()).html("repairs");
 }
 
 }  // namespace

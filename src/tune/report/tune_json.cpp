@@ -150,13 +150,6 @@ constexpr auto number = object(
                     optional("incomplete", always_true, "Not all values were looked at.",
                              [](const Repairs& of) { return !of.is_complete; })))));
 
-constexpr auto pair =
-    object("pair", "Two numbers with which all expectations hold if both change.",
-           member("first", count, "Its place in `numbers`, from 0.", &PairRepair::first),
-           value_member("first_value", "", &PairRepair::first_value),
-           member("second", count, "Its place in `numbers`, from 0.", &PairRepair::second),
-           part(&PairRepair::values, interval), value_member("nearest", "", &PairRepair::nearest));
-
 constexpr auto report = object(
     "",
     "The output of `cbc tune --format json` (schema cbc.tune/1): how wrong each number of a "
@@ -187,11 +180,6 @@ constexpr auto report = object(
                for (std::size_t place = 0; place < of.numbers.size(); ++place) put(place);
              };
            })
-        .on_line(),
-    optional("pairs", list(pair).on_lines(),
-             "With --pairs, where no number alone is enough: the smallest changes first. There may "
-             "be others.",
-             &TuneResult::pairs)
         .on_line(),
     member(
         "expectations",

@@ -35,10 +35,9 @@ struct TuneResult {
   const Catalog& source;
   const CompiledCatalog& catalog;  ///< of the source
   const std::vector<TunableNumber>& numbers;
-  const Recording& present;                      ///< of states an empty one
-  std::vector<std::string> missions;             ///< their files
-  std::vector<TunedNumber> tuned;                ///< by number
-  std::optional<std::vector<PairRepair>> pairs;  ///< if they were tried: the smallest changes first
+  const Recording& present;           ///< of states an empty one
+  std::vector<std::string> missions;  ///< their files
+  std::vector<TunedNumber> tuned;     ///< by number
   std::optional<Millionths> fail_under;
   std::optional<TunedStates> states;
 
@@ -70,10 +69,9 @@ struct FoundRepair {
 [[nodiscard]] std::string describe(const TuneResult& result, const Recording::Failure& failure);
 /// Its line; "-" if it stands nowhere.
 [[nodiscard]] std::string line_of(const TunableNumber& number);
-/// Whether there are repairs, of one number or of two, and whether that is all.
-[[nodiscard]] bool has_repairs(const TuneResult& result);
+/// Whether there are repairs, and whether that is all.
 [[nodiscard]] std::string describe_repairs(const TuneResult& result);
-/// Of each number with repairs, or else the pairs, with what else they change.
+/// Of each number with repairs, with what else they change.
 [[nodiscard]] Table repairs_table(const TuneResult& result, const Style& style,
                                   std::size_t columns = 0);
 /// The numbers that may have any value, and those that nothing has or no decision uses.

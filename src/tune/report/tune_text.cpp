@@ -23,7 +23,8 @@ void add_repairs(const TuneResult& result, Text& text) {
     text.painted(text.style().bad, describe(result, failure));
   }
   text.title(describe_repairs(result));
-  if (has_repairs(result)) text.add(repairs_table(result, text.style(), text.columns()).text());
+  if (!nearest_repairs(result).empty())
+    text.add(repairs_table(result, text.style(), text.columns()).text());
 }
 
 /// The nearer a bound, the louder.

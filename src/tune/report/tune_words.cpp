@@ -137,10 +137,6 @@ std::string line_of(const TunableNumber& number) {
   return number.range ? std::to_string(number.line()) : "-";
 }
 
-bool has_repairs(const TuneResult& result) {
-  return (result.pairs && !result.pairs->empty()) || !nearest_repairs(result).empty();
-}
-
 std::string describe_repairs(const TuneResult& result) {
   if (!nearest_repairs(result).empty()) {
     return "each of these numbers alone makes all expectations hold";
@@ -148,11 +144,8 @@ std::string describe_repairs(const TuneResult& result) {
   const bool is_complete =
       std::all_of(result.tuned.begin(), result.tuned.end(),
                   [](const TunedNumber& one) { return one.repairs.is_complete; });
-  std::string text = is_complete ? "no number alone makes all expectations hold, whatever its value"
-                                 : "none was found, but the numbers were not searched to the end";
-  if (!result.pairs) return text;
-  return text + (result.pairs->empty() ? "; no pair was found that does"
-                                       : "; these pairs do, and there may be others");
+  return is_complete ? "no number alone makes all expectations hold, whatever its value"
+                     : "none was found, but the numbers were not searched to the end";
 }
 
 Table repairs_table(const TuneResult& result, const Style& style, std::size_t columns) {
@@ -164,29 +157,15 @@ Table repairs_table(const TuneResult& result, const Style& style, std::size_t co
                {"of"},
                {"changes"}},
               {.columns = columns});
-  const auto add = [&](std::size_t number, Millionths nearest, const std::string& values,
-                       const std::string& changes) {
+  for (const auto& [number, repair, change] : nearest_repairs(result)) {
     const TunableNumber& of = result.numbers[number];
     table.add({line_of(of),
                describe(of, result.source),
                format_decimal(of.value, 4),
-               {format_decimal(nearest, 4), style.good},
-               values,
-               changes});
-  };
-  const std::vector<FoundRepair> found = nearest_repairs(result);
-  for (const auto& [number, repair, change] : found) {
-    add(number, repair->nearest,
-        join(result.tuned[number].repairs.intervals, "; ",
-             [](const NumberRepair& one) { return describe(one.values); }),
-        describe_changed(result, *repair));
-  }
-  constexpr std::size_t most_pairs = 20;
-  if (!result.pairs) return table;
-  for (const PairRepair& pair :
-       std::span(*result.pairs).first(std::min(result.pairs->size(), most_pairs))) {
-    add(pair.first, pair.first_value, {}, {});
-    add(pair.second, pair.nearest, "with that, " + describe(pair.values), {});
+               {format_decimal(repair->nearest, 4), style.good},
+               join(result.tuned[number].repairs.intervals, "; ",
+                    [](const NumberRepair& one) { return describe(one.values); }),
+               describe_changed(result, *repair)});
   }
   return table;
 }
