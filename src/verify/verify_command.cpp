@@ -118,7 +118,7 @@ void add_verify_command(Program& program) {
       .only_with({"--effects"});
 
   command.flag("--overrides", options->overrides, "Tabulate which of two requests gives way")
-      .not_with({"--cut-sets", "--effects", "--refused", "--same-as", "--scripts"})
+      .not_with({"--cut-sets", "--effects", "--html", "--refused", "--same-as", "--scripts"})
       .only_with_values("--format", {"text", "json"});
 
   command.action([options] { return run_verify(*options); });

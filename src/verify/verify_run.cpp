@@ -375,8 +375,7 @@ class Call {
   }
 
   [[nodiscard]] std::string page() const {
-    if (result_.effects) return effects_to_html(result_);
-    return result_.overrides ? overrides_to_html(result_) : verify_to_html(result_);
+    return result_.effects ? effects_to_html(result_) : verify_to_html(result_);
   }
 
   int report() {

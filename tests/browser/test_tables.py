@@ -1,4 +1,4 @@
-"""The pages that are tables: of `cbc tune`, `cbc verify --effects` and `cbc verify --overrides`."""
+"""The pages that are tables: of `cbc tune` and `cbc verify --effects`."""
 
 import subprocess
 import unittest
@@ -23,8 +23,7 @@ class Tables(unittest.TestCase):
         cls.addClassCleanup(cls.browser.close)
         cls.tune = make("tune", "tune", "docs/sonar.mission.yaml")
         cls.pages = [cls.tune, make("tune-states", "tune", "--all-states", "catalogs/px4.yaml"),
-                     make("effects", "verify", "--effects", "catalogs/warehouse.yaml"),
-                     make("overrides", "verify", "--overrides", "catalogs/warehouse.yaml")]
+                     make("effects", "verify", "--effects", "catalogs/warehouse.yaml")]
 
     def load(self, url, width, scheme="light"):
         self.browser.set_size(width, 900)

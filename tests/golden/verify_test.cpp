@@ -92,21 +92,6 @@ TEST_F(Verify, HasAPageOfEffects) {
   }
 }
 
-TEST_F(Verify, HasAPageOfOverrides) {
-  const std::string drone = "tests/golden/shared/verify_overrides/catalog.yaml";
-  const Result result = verify({drone, "--overrides", "--html", scratch / "page.html"});
-  EXPECT_EQ(result.status, 0);
-  const std::string page = scratch.read("page.html");
-  EXPECT_EQ(page.rfind("<!DOCTYPE html>", 0), 0U);
-  for (const char* const part :
-       {"<tr><th scope=\"row\">SURVEY</th><td>...</td><td>www</td><td>ssr</td>",
-        "<dt>s</dt><dd>the first one stops</dd>",
-        "<th scope=\"row\">SURVEY, then WARN</th><td>SURVEY with SURVEY_BY_RADAR in place of "
-        "SURVEY_BY_CAMERA (same, higher, lower)</td>"}) {
-    EXPECT_NE(page.find(part), std::string::npos) << part << "\n" << page;
-  }
-}
-
 TEST_F(Verify, NamesScriptsInJson) {
   const Result result = verify({properties, "--scripts", scratch.path(), "--format", "json"});
   const nlohmann::json report = nlohmann::json::parse(result.out);

@@ -1,4 +1,4 @@
-// Who gives way to whom, for people and as a page.
+// Who gives way to whom, for people.
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,6 @@
 #include "core/report/table.h"
 #include "core/support/wording.h"
 #include "core/words/words.h"
-#include "page/table_page.h"
 #include "verify/report/verify_report.h"
 
 namespace cbc {
@@ -131,14 +130,14 @@ void add_matrix(const VerifyResult& result, Text& text) {
   }
 }
 
-constexpr std::string_view incomplete = "a limit ended the search, so rows are missing";
-
 }  // namespace
 
 void add_overrides(const VerifyResult& result, Text& text) {
   text.add(wrap_line(title_of(result), text_width, 2) + "\n");
   add_matrix(result, text);
-  if (!result.overrides->matrix.complete) text.painted(text.style().warning, incomplete);
+  if (!result.overrides->matrix.complete) {
+    text.painted(text.style().warning, "a limit ended the search, so rows are missing");
+  }
   text.line("");
   text.add(wrap_line(how_to_read, text_width, 0) + "\n");
   for (const auto& [sign, meaning] : legend) text.line("  {}  {}", sign, meaning);
@@ -146,32 +145,6 @@ void add_overrides(const VerifyResult& result, Text& text) {
   if (changes.empty()) return;
   text.title("other behaviors");
   text.add(changes);
-}
-
-std::string overrides_to_html(const VerifyResult& result) {
-  const OverrideMatrix& matrix = result.overrides->matrix;
-  const auto names = names_of_tasks(*result.catalog, matrix.tasks);
-  std::vector<Table::Column> columns(1);
-  for (const std::string& name : names) columns.push_back({name});
-  Table table(plain_style(), std::move(columns));
-  for (std::size_t row = 0; row < matrix.row_count(); ++row) {
-    Table::Row cells = {names[row]};
-    for (std::size_t column = 0; column < names.size(); ++column) {
-      cells.emplace_back(signs_of(matrix.at(row, column)));
-    }
-    table.add(std::move(cells));
-  }
-  std::string html =
-      fmt::format("<p>{}</p>\n{}", xml_text(title_of(result)), table.html("overrides"));
-  if (!matrix.complete) html += fmt::format("<p>{}</p>\n", incomplete);
-  html += fmt::format("<h2>Legend</h2>\n<p>{}</p>\n<dl>\n", how_to_read);
-  for (const auto& [sign, meaning] : legend) {
-    html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", sign, meaning);
-  }
-  html += "</dl>\n";
-  const Table changes = table_of_changes(result, plain_style());
-  if (!changes.text().empty()) html += "<h2>Other behaviors</h2>\n" + changes.html("changes");
-  return table_page(fmt::format("Who gives way to whom: {}", result.catalog->file), html);
 }
 
 }  // namespace cbc

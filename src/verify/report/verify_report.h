@@ -187,7 +187,6 @@ void add_effects(const VerifyResult& result, Text& text);
 
 /// Adds the matrix of who gives way to whom; the same as a page.
 void add_overrides(const VerifyResult& result, Text& text);
-[[nodiscard]] std::string overrides_to_html(const VerifyResult& result);
 
 /// The result for people.
 [[nodiscard]] std::string verify_to_text(const VerifyResult& result, const Style& style);
