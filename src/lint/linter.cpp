@@ -12,7 +12,7 @@
 #include "core/files/check_file.h"
 #include "core/files/output.h"
 #include "core/files/replace.h"
-#include "core/support/line_diff.h"
+#include "core/files/unified_diff.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 
@@ -172,7 +172,9 @@ void Linter::fix(File& file, CheckedCatalog& catalog, const SeveritySettings& se
   }
   const Replacement replacement{file->path, file->text, *fixed_file->text};
   if (command_.diff) {
-    diff_ += unified_diff(*file->text, *fixed_file->text, file->name);
+    const auto diff = unified_diff(*file->text, *fixed_file->text, file->name);
+    has_failed_ |= !diff;
+    diff_ += diff.value_or("");
   } else if (replace_inputs({&replacement, 1}) != exit_ok) {
     has_failed_ = true;
     return;

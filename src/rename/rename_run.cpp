@@ -8,9 +8,9 @@
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
 #include "core/files/replace.h"
+#include "core/files/unified_diff.h"
 #include "core/property/property_reader.h"
 #include "core/script/reader.h"
-#include "core/support/line_diff.h"
 #include "rename/engine/proof.h"
 #include "rename/rename.h"
 #include "rename/report/rename_text.h"
@@ -156,7 +156,9 @@ class Call {
   int show() const {
     for (const ChangedFile& changed : changed_) {
       const InputFile& file = *changed.before->file;
-      fmt::print("{}", unified_diff(*file.text, changed.text, file.name));
+      const auto diff = unified_diff(*file.text, changed.text, file.name);
+      if (!diff) return exit_unusable;
+      fmt::print("{}", *diff);
     }
     fmt::print(stderr, "{}", report(false, style_for(stderr)));
     return exit_ok;

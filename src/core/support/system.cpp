@@ -227,9 +227,13 @@ std::optional<std::string> find_obstacle(const std::string& path) {
 
 namespace {
 
-/// Starts a program with these files for its standard streams. Returns a value of errno.
-int start(const std::vector<std::string>& command, const std::array<Descriptor, 3>& streams,
-          pid_t& process) {
+constexpr int second_input_number = 3;
+constexpr std::size_t stream_count = 4;
+
+/// Starts a program with these files for its standard streams, and the second input. Returns a
+/// value of errno.
+int start(const std::vector<std::string>& command,
+          const std::array<Descriptor, stream_count>& streams, pid_t& process) {
   std::vector<std::string> words = command;
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
@@ -237,7 +241,7 @@ int start(const std::vector<std::string>& command, const std::array<Descriptor, 
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+  for (int stream = STDIN_FILENO; stream <= second_input_number; ++stream) {
     posix_spawn_file_actions_adddup2(&actions,
                                      streams.at(static_cast<std::size_t>(stream)).number(), stream);
   }
@@ -278,16 +282,17 @@ std::string end_of(int status) {
 }  // namespace
 
 Filtered run_filter(const std::vector<std::string>& command, std::string_view input,
-                    const std::function<bool()>& is_stopped) {
+                    const std::function<bool()>& is_stopped, std::string_view second_input) {
   // Files in memory, of which neither side waits for the other.
   const auto fail = [] { return Filtered{true, false, {}, reason()}; };
-  std::array<Descriptor, 3> streams;
+  std::array<Descriptor, stream_count> streams;
   for (Descriptor& stream : streams) {
     stream.set(memfd_create("stream", MFD_CLOEXEC));
     if (stream.number() < 0) return fail();
   }
   const int input_file = streams[STDIN_FILENO].number();
   if (!write_all(input_file, input) || lseek(input_file, 0, SEEK_SET) < 0) return fail();
+  if (!write_all(streams[second_input_number].number(), second_input)) return fail();
   pid_t process = 0;
   if (const int error = start(command, streams, process); error != 0) {
     return {false, false, {}, reason(error)};
@@ -309,7 +314,8 @@ Filtered run_filter(const std::vector<std::string>& command, std::string_view in
   }
   Filtered result;
   result.is_found = true;
-  result.is_done = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  if (WIFEXITED(status)) result.status = WEXITSTATUS(status);
+  result.is_done = result.status == 0;
   if (!read_all(streams[STDOUT_FILENO], result.output) ||
       !read_all(streams[STDERR_FILENO], result.error_output)) {
     return fail();

@@ -41,14 +41,19 @@ namespace cbc {
 struct Filtered {
   bool is_found = false;     ///< nothing says that the program could not be started
   bool is_done = false;      ///< it ended with exit status 0
+  int status = -1;           ///< its exit status, if it had one
   std::string output;        ///< its standard output
   std::string error_output;  ///< its standard error, or why it could not be run, or how it ended
 };
 
+/// Where a filter reads a second text.
+inline constexpr std::string_view second_input_of_filter = "/dev/fd/3";
+
 /// Runs a program, found by PATH, with a text as standard input. No shell is involved. Once
 /// `is_stopped` holds, which is asked every 20 ms, the program is ended.
 [[nodiscard]] Filtered run_filter(const std::vector<std::string>& command, std::string_view input,
-                                  const std::function<bool()>& is_stopped = nullptr);
+                                  const std::function<bool()>& is_stopped = nullptr,
+                                  std::string_view second_input = {});
 
 /// A C stream that writes to memory.
 class MemoryFile {
