@@ -29,7 +29,6 @@ struct CoverageOptions {
   std::string fail_under;             ///< percent; empty: whatever it is
   bool prove = false;                 ///< set goals apart that are proven unreachable
   std::optional<std::string> assume;  ///< the property file with the assumptions of proofs
-  bool merge = false;
   std::optional<std::string> write_missing;
   bool mutants = false;
   std::optional<std::string> scripts;
@@ -91,9 +90,6 @@ void watch_missions(const std::vector<Mission>& missions, std::optional<std::uin
 /// Runs the missions, and reports which goals they meet. Returns the exit status.
 [[nodiscard]] int measure_coverage(const CoverageOptions& options,
                                    const std::vector<Mission>& missions);
-/// Merges JSON results. The paths are those of the catalog and of the results. Returns the exit
-/// status.
-[[nodiscard]] int merge_coverage(const CoverageOptions& options);
 
 /// Missions on one catalog, and what else may happen.
 struct CoverageQuestion {

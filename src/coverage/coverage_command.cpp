@@ -40,11 +40,7 @@ std::optional<CoverageQuestion> find_question(std::shared_ptr<const CompiledCata
 }
 
 int run_coverage(const CoverageOptions& options) {
-  if (options.paths.size() < (options.merge ? 2U : 1U)) {
-    return usage_error("coverage", options.merge ? "expected the catalog, and JSON results to merge"
-                                                 : "expected a catalog and a script");
-  }
-  if (options.merge) return merge_coverage(options);
+  if (options.paths.empty()) return usage_error("coverage", "expected a catalog and a script");
   MissionLoader loader;
   const bool is_measured = !options.write_missing && !options.mutants;
   if (!is_measured) loader.need_none();
@@ -83,7 +79,7 @@ void add_coverage_command(Program& program) {
   Command& command = program.add_command(
       "coverage", "Reports what event scripts test of a catalog, and writes what is missing.",
       {{"[OPTION...] [CATALOG] SCRIPT...", "--write-missing DIR [OPTION...] CATALOG [SCRIPT...]",
-        "--mutants [OPTION...] CATALOG SCRIPT...", "--merge [OPTION...] CATALOG RESULT..."},
+        "--mutants [OPTION...] CATALOG SCRIPT..."},
        coverage_examples,
        coverage_footer});
   command.argument("CATALOG SCRIPT", options->paths, input("...", ValueKind::catalog_or_script),
@@ -93,7 +89,6 @@ void add_coverage_command(Program& program) {
   command.output_option(options->output);
   command.option("--fail-under", options->fail_under, percent(),
                  "Exit with 1 if fewer goals are met than this");
-  command.flag("--merge", options->merge, "Merge the JSON results of several runs");
   command.jobs_option(options->jobs, "Run N scripts at once");
   command.add_confinement();
 
@@ -103,10 +98,9 @@ void add_coverage_command(Program& program) {
   command
       .option("--write-missing", options->write_missing, folder(),
               "Write scripts to DIR that meet the other goals")
-      .not_with({"--mutants", "--merge", "--fail-under"})
+      .not_with({"--mutants", "--fail-under"})
       .only_with_values("--format", {"text"});
   command.flag("--mutants", options->mutants, "Report which changes of the catalog nothing notices")
-      .not_with({"--merge"})
       .only_with_values("--format", names_in(mutants_formats()));
   command
       .option("--scripts", options->scripts, folder(),
@@ -121,7 +115,7 @@ void add_coverage_command(Program& program) {
 
   command.group("Search");
   for (Option* const option : add_search_limits(command, options->search)) {
-    option->not_with({"--merge", "--mutants", "--write-missing"});
+    option->not_with({"--mutants", "--write-missing"});
   }
   command.action([options] { return run_coverage(*options); });
 }

@@ -238,23 +238,4 @@ int measure_coverage(const CoverageOptions& options, const std::vector<Mission>&
   return std::max(status, report(std::move(*coverage), *assumptions, options));
 }
 
-int merge_coverage(const CoverageOptions& options) {
-  FileSet files;
-  const auto catalog = files.load(options.paths.front());
-  files.print_findings();
-  if (catalog == nullptr || !can_be_covered(*catalog)) return exit_unusable;
-  Coverage coverage;
-  coverage.catalogs.push_back(coverage_of(*catalog));
-  const auto assumptions = find_assumptions(coverage, options);
-  if (!assumptions) return exit_unusable;
-  for (std::size_t place = 1; place < options.paths.size(); ++place) {
-    const std::string& path = options.paths[place];
-    const std::optional<std::string> text = read_result(path);
-    if (!text) return exit_unusable;
-    const std::string fault = add_coverage_json(*text, coverage.catalogs.front());
-    if (!fault.empty()) return complain("cannot merge {}: {}", quote(display_name(path)), fault);
-  }
-  return report(std::move(coverage), *assumptions, options);
-}
-
 }  // namespace cbc::cli

@@ -3,8 +3,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <string_view>
+#include <system_error>
 #include <utility>
-#include <variant>
 
 #include <fmt/core.h>
 
@@ -23,14 +24,12 @@ namespace {
 
 struct SweepOptions {
   std::vector<std::string> paths;
-  std::uint64_t sequences = 1000;
+  std::string sequences = "1000";
   std::uint64_t seed = 1;
   std::uint32_t events = SweepShape{}.events;
   std::int32_t priorities = SweepShape{}.priorities;
   std::string failures = "0.3";
   std::string faults = "0.1";
-  std::string shard = "1/1";
-  bool merge = false;
   std::optional<std::string> slowest;
   std::optional<std::string> slowest_by_time;
   std::string format = "text";
@@ -55,38 +54,44 @@ Values probability() {
           }};
 }
 
-/// "2/8"; empty if it is none.
-std::optional<SweepShard> parse_shard(const std::string& text) {
-  SweepShard shard;
-  const char* const end = text.data() + text.size();
-  const auto index = std::from_chars(text.data(), end, shard.index);
-  if (index.ec != std::errc() || index.ptr == end || *index.ptr != '/') return std::nullopt;
-  const auto count = std::from_chars(index.ptr + 1, end, shard.count);
-  if (count.ec != std::errc() || count.ptr != end) return std::nullopt;
-  if (shard.index < 1 || shard.index > shard.count || shard.count > most_shards) {
-    return std::nullopt;
-  }
-  return shard;
+/// Sets the sequences by "1000" or "1001-2000". False: it is neither.
+bool parse_sequences(std::string_view text, SweepSettings& settings) {
+  constexpr std::uint64_t most = 1'000'000'000;
+  const auto read = [&](std::string_view part, std::uint64_t& number) {
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
+    return error == std::errc() && end == part.data() + part.size() && number >= 1 &&
+           number <= most;
+  };
+  const std::size_t dash = text.find('-');
+  std::uint64_t first = 1;
+  std::uint64_t last = 0;
+  if (dash != std::string_view::npos && !read(text.substr(0, dash), first)) return false;
+  if (!read(dash == std::string_view::npos ? text : text.substr(dash + 1), last)) return false;
+  if (first > last) return false;
+  settings.first = first - 1;
+  settings.sequences = last - settings.first;
+  return true;
 }
 
-Values shard_of_sweep() {
-  return {"I/N", "a shard, such as 1/8", [](const std::string& text) -> std::string {
-            if (parse_shard(text)) return {};
+Values sequence_range() {
+  return {"N", "a number of sequences", [](const std::string& text) -> std::string {
+            SweepSettings settings;
+            if (parse_sequences(text, settings)) return {};
             return fmt::format(
-                "expected I/N, such as 3/8, with I from 1 to N and N at most {}, found {}",
-                most_shards, quote(text));
+                "expected a number from 1 to 1000000000, or a range of them such as 1001-2000, "
+                "found {}",
+                quote(text));
           }};
 }
 
 SweepSettings settings_of(const SweepOptions& options) {
   SweepSettings settings;
-  settings.sequences = options.sequences;
+  parse_sequences(options.sequences, settings);
   settings.seed = options.seed;
   settings.shape.events = options.events;
   settings.shape.priorities = options.priorities;
   settings.shape.failures = static_cast<Millionths>(parse_probability(options.failures).value);
   settings.shape.faults = static_cast<Millionths>(parse_probability(options.faults).value);
-  settings.shard = parse_shard(options.shard).value_or(SweepShard{});
   settings.search = {options.search.max_solutions, options.search.max_nodes,
                      options.search.max_clock_events};
   return settings;
@@ -159,51 +164,20 @@ int judge(const SweptComparison& comparison, const SweepOptions& options) {
 }
 
 int report(SweepResult result, const SweepOptions& options) {
-  int status = write_slowest(options.slowest, result.slowest);
-  if (options.slowest_by_time && !result.times) {
-    complain("--slowest-by-time: the shards were run without '--stats'");
-    status = exit_unusable;
-  } else if (result.times) {
-    status = std::max(status, write_slowest(options.slowest_by_time, result.times->slowest));
-  }
+  int status = std::max(write_slowest(options.slowest, result.slowest),
+                        write_slowest(options.slowest_by_time, result.times->slowest));
   if (result.against) {
     status = std::max(
         {status, write_scripts(*result.against, options), judge(*result.against, options)});
-  } else if (options.scripts) {
-    return complain("--scripts: the shards were run without '--against'");
   }
-  if (!options.stats && !options.merge) result.times.reset();
+  if (!options.stats) result.times.reset();
   const SweepFormat& format = *find_named(sweep_formats(), options.format);
   fmt::print("{}", format.write(result, style_for(stdout)));
   return status;
 }
 
-int merge(const SweepOptions& options) {
-  SweepMerger merger;
-  for (const std::string& path : options.paths) {
-    const std::optional<std::string> text = read_result(path);
-    if (!text) return exit_unusable;
-    const std::string name = display_name(path);
-    auto shard = sweep_from_json(*text);
-    if (const auto* const fault = std::get_if<std::string>(&shard)) {
-      return complain("cannot merge {}: {}", quote(name), *fault);
-    }
-    if (const auto error = merger.add(std::get<SweepResult>(std::move(shard)), name)) {
-      return complain("cannot merge: " + *error);
-    }
-  }
-  if (const auto missing = merger.find_missing()) {
-    return complain("cannot merge: " + *missing);
-  }
-  return report(merger.take(), options);
-}
-
 int run_sweep(const SweepOptions& options) {
-  if (options.paths.empty()) {
-    return usage_error("sweep", options.merge ? "expected the JSON results of the shards to merge"
-                                              : "expected the catalog of the sweep");
-  }
-  if (options.merge) return merge(options);
+  if (options.paths.empty()) return usage_error("sweep", "expected the catalog of the sweep");
   const std::shared_ptr<const CompiledCatalog> catalog = load_swept(options.paths);
   if (catalog == nullptr || !can_write_slowest(options)) return exit_unusable;
   std::shared_ptr<const CompiledCatalog> old_catalog;
@@ -217,13 +191,12 @@ int run_sweep(const SweepOptions& options) {
     if (!fault.empty()) return usage_error("sweep", "--renamed: {}", fault);
   }
   const SweepSettings settings = settings_of(options);
-  const SequenceRange range = sequences_of(settings);
   Progress progress("sweeping", 1);
   progress.begin(std::string(catalog->file));
   SweepOutcome outcome = sweep(
       *catalog, settings, thread_count(options.jobs),
       [&](std::uint64_t done) {
-        progress.show(fmt::format(" ({} %)", done * 100 / (range.end - range.first)));
+        progress.show(fmt::format(" ({} %)", done * 100 / settings.sequences));
       },
       old_version);
   progress.clear();
@@ -233,8 +206,7 @@ int run_sweep(const SweepOptions& options) {
 
 constexpr const char* sweep_examples =
     "  cbc sweep robot.yaml                      random events and faults\n"
-    "  cbc sweep robot.yaml --shard 1/8 --format json > 1.json   one of eight parts\n"
-    "  cbc sweep --merge *.json                  the result of all parts\n"
+    "  cbc sweep robot.yaml --sequences 1001-2000   a part of a longer sweep\n"
     "  cbc sweep new.yaml --against old.yaml     what do they decide differently?\n";
 
 constexpr const char* sweep_footer =
@@ -247,13 +219,12 @@ constexpr const char* sweep_footer =
 }  // namespace
 
 void add_sweep_command(Program& program) {
-  constexpr std::int64_t most_sequences = 1'000'000'000;
   constexpr std::int64_t most_events = 1'000'000;
   const auto options = std::make_shared<SweepOptions>();
   const std::vector<std::string> formats = names_in(sweep_formats());
   Command& command = program.add_command(
       "sweep", "Runs random events and faults on a catalog, and reports what happened in them.",
-      {{"[OPTION...] CATALOG", "--merge [OPTION...] SHARD..."}, sweep_examples, sweep_footer});
+      {{"[OPTION...] CATALOG"}, sweep_examples, sweep_footer});
   command.argument("CATALOG", options->paths, input("", ValueKind::catalog),
                    "The catalog: YAML or compiled, or - for standard input");
   command.format_option(options->format, formats);
@@ -263,41 +234,34 @@ void add_sweep_command(Program& program) {
                  "Write the event with the most nodes as a script");
   command.option("--slowest-by-time", options->slowest_by_time, further_output("FILE"),
                  "Write the slowest event as a script");
-  command.flag("--merge", options->merge, "Merge the JSON results of all shards")
-      .makes_arguments(ValueKind::shard);
   command.add_confinement();
 
   command.group("Comparison");
-  command
-      .option("--against", options->against, input("OLD", ValueKind::catalog),
-              "Report what CATALOG and OLD decide differently")
-      .not_with({"--merge"}, "the shards were compared already");
+  command.option("--against", options->against, input("OLD", ValueKind::catalog),
+                 "Report what CATALOG and OLD decide differently");
   command.option("--renamed", options->renamed, old_and_new_name(), "OLD is called NEW in CATALOG")
       .only_with({"--against"});
   command
       .flag("--allow-missing", options->allow_missing, "What only one of them has does not count")
-      .only_with({"--against", "--merge"});
+      .only_with({"--against"});
   command
       .option("--scripts", options->scripts, folder(), "Write a script for each difference to DIR")
-      .only_with({"--against", "--merge"});
+      .only_with({"--against"});
 
   command.group("Sequences");
-  const auto add = [&](const char* name, auto& target, Values values, const char* help) {
-    command.option(name, target, std::move(values), help).not_with({"--merge"});
-  };
-  add("--sequences", options->sequences, whole_number("N", 1, most_sequences), "Run N sequences");
-  add("--seed", options->seed, whole_number("S", 0), "Seed of the sequences");
-  add("--events", options->events, whole_number("E", 1, most_events), "Events in each sequence");
-  add("--priorities", options->priorities, whole_number("P", 1, 1'000'000),
-      "Priorities of requests, from 1 to P");
-  add("--failures", options->failures, probability(), "Share of finishes that are failures");
-  add("--faults", options->faults, probability(), "Share of faults and situations");
-  add("--shard", options->shard, shard_of_sweep(), "Run only shard I of N");
+  command.option("--sequences", options->sequences, sequence_range(),
+                 "Run N sequences, or those from FIRST-LAST");
+  command.option("--seed", options->seed, whole_number("S", 0), "Seed of the sequences");
+  command.option("--events", options->events, whole_number("E", 1, most_events),
+                 "Events in each sequence");
+  command.option("--priorities", options->priorities, whole_number("P", 1, 1'000'000),
+                 "Priorities of requests, from 1 to P");
+  command.option("--failures", options->failures, probability(),
+                 "Share of finishes that are failures");
+  command.option("--faults", options->faults, probability(), "Share of faults and situations");
 
   command.group("Search");
-  for (Option* const option : add_search_limits(command, options->search)) {
-    option->not_with({"--merge"}, "the shards were solved already");
-  }
+  add_search_limits(command, options->search);
   command.action([options] { return run_sweep(*options); });
 }
 

@@ -6,7 +6,6 @@
 #include <set>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -150,42 +149,13 @@ TEST(SweepAgainst, TheSameCatalogIsAlike) {
   EXPECT_GT(result.against->events, 1000U);
 }
 
-TEST(SweepAgainst, ShardsAndJobsGiveTheSameResult) {
+TEST(SweepAgainst, JobsGiveTheSameResult) {
   const CompiledCatalog old_catalog = test::compile_text(quadrotor());
   const CompiledCatalog new_catalog =
       test::compile_text(replaced(quadrotor(), "suitability: 100", "suitability: 20"));
-  SweepSettings settings = settings_of(23, 9);
+  const SweepSettings settings = settings_of(23, 9);
   const std::string whole = sweep_to_json(run(new_catalog, old_catalog, settings));
   EXPECT_EQ(sweep_to_json(run(new_catalog, old_catalog, settings, 5)), whole);
-  SweepMerger merger;
-  settings.shard.count = 4;
-  for (const std::uint64_t index : {3U, 1U, 4U, 2U}) {
-    settings.shard.index = index;
-    auto shard = sweep_from_json(sweep_to_json(run(new_catalog, old_catalog, settings)));
-    ASSERT_TRUE(std::holds_alternative<SweepResult>(shard)) << std::get<std::string>(shard);
-    EXPECT_EQ(merger.add(std::get<SweepResult>(std::move(shard)), "f"), std::nullopt);
-  }
-  EXPECT_EQ(sweep_to_json(merger.take()), whole);
-}
-
-TEST(SweepAgainst, ShardsAgainstAnotherCatalogDoNotMerge) {
-  const CompiledCatalog one = test::compile_text(quadrotor());
-  const CompiledCatalog other =
-      test::compile_text(replaced(quadrotor(), "suitability: 100", "suitability: 20"));
-  SweepSettings settings = settings_of(4, 1);
-  settings.shard.count = 2;
-  const auto merge_with = [&](SweepResult second) {
-    SweepMerger merger;
-    EXPECT_EQ(merger.add(run(one, one, settings), "first"), std::nullopt);
-    second.settings.shard.index = 2;
-    return merger.add(std::move(second), "second").value_or("");
-  };
-  EXPECT_NE(merge_with(run(one, other, settings)).find("against another catalog"),
-            std::string::npos);
-  SweepResult alone = run(one, one, settings);
-  alone.against.reset();
-  EXPECT_NE(merge_with(std::move(alone)).find("'--against'"), std::string::npos);
-  EXPECT_EQ(merge_with(run(one, one, settings)), "");
 }
 
 // Drawn by name ----------------------------------------------------------------------------------

@@ -1,12 +1,10 @@
 #include "sweep/engine/sweep.h"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <set>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -65,50 +63,21 @@ TEST(Sweep, DoesNotDependOnTheJobs) {
   }
 }
 
-/// Runs the shards, writes and reads them, and merges them in a random order.
-std::string merge_shards(const CompiledCatalog& catalog, SweepSettings settings,
-                         std::uint64_t count, test::Random& random) {
-  std::vector<std::uint64_t> order;
-  for (std::uint64_t index = 1; index <= count; ++index) order.push_back(index);
-  for (std::size_t left = order.size(); left > 1; --left) {
-    std::swap(order[left - 1], order[random.below(left)]);
-  }
-  SweepMerger merger;
-  settings.shard.count = count;
-  for (const std::uint64_t index : order) {
-    settings.shard.index = index;
-    auto read = sweep_from_json(sweep_to_json(run(catalog, settings)));
-    if (const auto* const fault = std::get_if<std::string>(&read)) return *fault;
-    if (const auto error = merger.add(std::get<SweepResult>(std::move(read)), "f")) return *error;
-  }
-  if (const auto missing = merger.find_missing()) return *missing;
-  return sweep_to_json(merger.take());
-}
-
-TEST(Sweep, ShardsMergeToTheBytesOfOneRun) {
-  test::Random random(1);
+TEST(Sweep, PartsAddUpToTheWhole) {
   for (const CompiledCatalog& catalog : {quadrotor(), restless()}) {
-    const std::string whole = sweep_to_json(run(catalog, settings_of(23, 9)));
-    for (const std::uint64_t count : {1U, 2U, 3U, 7U, 23U, 30U}) {
-      EXPECT_EQ(merge_shards(catalog, settings_of(23, 9), count, random), whole) << count;
+    const SweepResult whole = run(catalog, settings_of(23, 9));
+    SweepResult sum = whole;
+    sum.counts = SweepCounts(catalog.tasks.size(), catalog.behaviors.size());
+    sum.nodes = {};
+    SweepSettings settings = settings_of(1, 9);
+    for (const std::uint64_t next : {1U, 8U, 9U, 23U}) {
+      settings.sequences = next - settings.first;
+      const SweepResult part = run(catalog, settings);
+      sum.counts.add(part.counts);
+      sum.nodes.add(part.nodes);
+      settings.first = next;
     }
-  }
-}
-
-TEST(Sweep, ShardsHaveEverySequenceOnce) {
-  for (const std::uint64_t sequences : {1U, 5U, 12U, 1'000'000'007U}) {
-    for (const std::uint64_t count : {1U, 2U, 5U, 13U, 1000U}) {
-      SweepSettings settings = settings_of(sequences, 1);
-      settings.shard.count = count;
-      std::uint64_t next = 0;
-      for (settings.shard.index = 1; settings.shard.index <= count; ++settings.shard.index) {
-        const SequenceRange range = sequences_of(settings);
-        EXPECT_EQ(range.first, next);
-        EXPECT_LE(range.end - range.first, sequences / count + 1);
-        next = range.end;
-      }
-      EXPECT_EQ(next, sequences);
-    }
+    EXPECT_EQ(sweep_to_json(sum), sweep_to_json(whole));
   }
 }
 
@@ -365,173 +334,6 @@ TEST(Sweep, EndsAtTheFirstSequenceThatFails) {
   NodesOf ignored(0);
   EXPECT_EQ(run_script(catalog, read(catalog, alone.failure->script), options, ignored).status,
             Coordinator::Status::too_many_clock_events);
-}
-
-// Shards that do not fit -------------------------------------------------------------------------
-
-std::string merge_error(const SweepResult& first, const SweepResult& second) {
-  SweepMerger merger;
-  EXPECT_EQ(merger.add(first, "a"), std::nullopt);
-  if (const auto error = merger.add(second, "b")) return *error;
-  return merger.find_missing().value_or("");
-}
-
-TEST(SweepMerger, RefusesWhatDoesNotBelongTogether) {
-  const CompiledCatalog catalog = quadrotor();
-  SweepSettings settings = settings_of(8, 1);
-  settings.shard = {1, 3};
-  const SweepResult first = run(catalog, settings);
-  const auto with = [&](auto change) {
-    SweepResult other = first;
-    other.settings.shard.index = 2;
-    change(other);
-    return merge_error(first, other);
-  };
-  const auto of = [](const std::string& what) { return "'b' does not belong to 'a': " + what; };
-  EXPECT_EQ(with([](SweepResult&) {}), "a shard of the sweep is missing: 3/3");
-  EXPECT_EQ(with([](SweepResult& r) { r.settings.shard.index = 1; }),
-            "'b' is shard 1/3 again, after 'a'");
-  EXPECT_EQ(with([](SweepResult& r) { r.settings.seed = 2; }), of("its seed is 2, not 1"));
-  EXPECT_EQ(with([](SweepResult& r) { r.settings.sequences = 9; }),
-            of("its number of sequences is 9, not 8"));
-  EXPECT_EQ(with([](SweepResult& r) { r.settings.shard.count = 4; }),
-            of("its number of shards is 4, not 3"));
-  EXPECT_EQ(with([](SweepResult& r) { r.settings.shape.events = 1; }), of("it has other options"));
-  EXPECT_EQ(with([](SweepResult& r) { r.settings.search.max_nodes = 1; }),
-            of("it has other options"));
-  EXPECT_EQ(with([](SweepResult& r) { r.digest = "x"; }), of("it is for another catalog"));
-  EXPECT_EQ(with([](SweepResult& r) { r.task_names.pop_back(); }), of("it is for another catalog"));
-  EXPECT_EQ(with([](SweepResult& r) { r.version = "9"; }),
-            of("its version of cbc is '9', not '" + first.version + "'"));
-  EXPECT_EQ(with([](SweepResult& r) { r.times.emplace(); }),
-            of("only one of them was made with '--stats'"));
-}
-
-TEST(SweepMerger, NamesTheFirstMissingShards) {
-  SweepSettings settings = settings_of(8, 1);
-  settings.shard = {2, 40};
-  SweepMerger merger;
-  EXPECT_EQ(merger.add(run(quadrotor(), settings), "a"), std::nullopt);
-  EXPECT_EQ(merger.find_missing(),
-            "shards of the sweep are missing: 1/40, 3/40, 4/40, 5/40, 6/40, 7/40, 8/40, 9/40, "
-            "10/40, 11/40 and 29 more");
-}
-
-// Files that are no shards -----------------------------------------------------------------------
-
-/// Of a small catalog, so that there are few values of each kind, with reasons of every kind.
-Json small_shard() {
-  const CompiledCatalog catalog = test::compile_text(R"(
-behaviors:
-- {behavior: walk, task: WALK, requires: [{task: SEE, minimum_performance: 60}]}
-- {behavior: creep, task: WALK, suitability: 70, requires: [{task: SEE}, {task: LIGHT}]}
-- {behavior: camera, task: SEE, suitability: 50}
-- {behavior: radar, task: SEE}
-- {behavior: lamp, task: LIGHT}
-- {behavior: rest, task: REST}
-tasks:
-- {task: SEE, start_on_request: false}
-- {task: FLY}
-exclusivity_constraints:
-- mutually_exclusive: [WALK, REST]
-)");
-  SweepSettings settings = settings_of(6, 1);
-  settings.shard = {1, 2};
-  SweepOutcome outcome = sweep(catalog, settings, 1, nullptr);
-  SweepTimes& times = outcome.result.times.value();
-  times.events = {};  // each event has a time of its own
-  for (const std::uint64_t time : {std::uint64_t{7}, std::uint64_t{8}, times.slowest->cost}) {
-    times.events.add(time);
-  }
-  Json shard = Json::parse(sweep_to_json(outcome.result));
-  std::set<std::string> kinds;
-  for (const Json& reason : shard["reasons"]) kinds.insert(reason["kind"]);
-  EXPECT_EQ(kinds.size(), 9U) << shard["reasons"];
-  return shard;
-}
-
-bool is_refused(const Json& json) {
-  auto read = sweep_from_json(json.dump());
-  if (std::holds_alternative<std::string>(read)) {
-    EXPECT_FALSE(std::get<std::string>(read).empty());
-    return true;
-  }
-  // What is taken can be merged and reported.
-  SweepMerger merger;
-  const SweepResult& result = std::get<SweepResult>(read);
-  EXPECT_EQ(merger.add(result, "a"), std::nullopt);
-  EXPECT_FALSE(sweep_to_text(result, plain_style()).empty());
-  EXPECT_FALSE(sweep_to_json(merger.take()).empty());
-  return false;
-}
-
-/// Calls with every value in a tree.
-void for_each_value(Json& json, const std::function<void(Json&)>& call) {
-  call(json);
-  if (!json.is_structured()) return;
-  for (Json& item : json) for_each_value(item, call);
-}
-
-TEST(SweepJson, ValuesOfWrongTypesAreRefused) {
-  Json shard = small_shard();
-  ASSERT_FALSE(is_refused(shard));
-  const std::vector<Json> others{nullptr,
-                                 true,
-                                 -1,
-                                 0.5,
-                                 "x",
-                                 UINT64_MAX,
-                                 Json::array(),
-                                 Json::object(),
-                                 Json::array({1, 2, 3})};
-  std::size_t refused = 0;
-  std::size_t taken = 0;
-  for_each_value(shard, [&](Json& value) {
-    Json kept = value;
-    for (const Json& other : others) {
-      value = other;
-      ++(is_refused(shard) ? refused : taken);
-    }
-    value = std::move(kept);
-  });
-  EXPECT_FALSE(is_refused(shard));
-  // Taken is little: texts for texts, numbers for numbers that nothing tells from the right ones,
-  // and what is worked out anew.
-  EXPECT_GT(refused, 6 * taken);
-  for (const char* const name :
-       {"schema", "catalog", "digest", "version", "sequences", "seed", "options", "shard", "events",
-        "tasks", "behaviors", "reasons", "nodes", "slowest", "stats"}) {
-    Json lacking = shard;
-    lacking[name] = false;
-    EXPECT_TRUE(is_refused(lacking)) << name;
-    if (std::string(name) == "stats") continue;
-    lacking.erase(name);
-    EXPECT_TRUE(is_refused(lacking)) << name;
-  }
-}
-
-TEST(SweepJson, NumbersThatAreTooLargeAreRefused) {
-  const Json shard = small_shard();
-  for (const char* const member :
-       {"/events/0/accepted", "/tasks/3/runs", "/reasons/0/count", "/behaviors/0/activations",
-        "/nodes/histogram/0/1", "/slowest/event", "/shard/count", "/options/priorities"}) {
-    Json changed = shard;
-    const Json::json_pointer place{std::string(member)};
-    changed[place] = largest_count + 1;
-    EXPECT_TRUE(is_refused(changed)) << member;
-  }
-}
-
-TEST(SweepJson, TextThatIsCutOffIsRefused) {
-  const std::string text = small_shard().dump();
-  for (std::size_t size = 0; size < text.size(); size += 31) {
-    EXPECT_TRUE(std::holds_alternative<std::string>(sweep_from_json(text.substr(0, size))));
-  }
-  EXPECT_TRUE(std::holds_alternative<std::string>(sweep_from_json(text + "x")));
-  EXPECT_TRUE(std::holds_alternative<std::string>(
-      sweep_from_json(std::string(1'000'000, '[') + std::string(1'000'000, ']'))));
-  EXPECT_TRUE(std::holds_alternative<std::string>(sweep_from_json(std::string(1'000'000, '['))));
-  EXPECT_TRUE(std::holds_alternative<std::string>(sweep_from_json("\xff\xfe")));
 }
 
 TEST(SweepHistogram, HasThePercentilesOfASortedList) {

@@ -64,11 +64,10 @@ LINES = [
     (r"cbc compile robot.yaml --uni", ["compile", "robot.yaml", "--uni"]),
     (r"cbc graph arm@2.yaml --task task", ["graph", "arm@2.yaml", "--task", "task"]),
     (r"cbc graph robot.yaml -o=rob", ["graph", "robot.yaml", "-o=rob"]),
-    # JSON: scripts may be, results of shards are.
+    # Scripts may be JSON.
     (r"cbc solve robot.yaml missions/se", ["solve", "robot.yaml", "missions/second.json"]),
     (r"cbc graph robot.yaml --script missions/se",
      ["graph", "robot.yaml", "--script", "missions/second.json"]),
-    (r"cbc sweep --merge par", ["sweep", "--merge", "part.json"]),
 ]
 
 # The catalog is behind the cursor; fish does not tell its scripts what is there.

@@ -21,9 +21,9 @@ const int messages = ::dup(STDERR_FILENO);
 }  // namespace
 
 std::span<const Target> targets() {
-  static const std::array all = {
-      catalog_target(), compiled_target(), merge_target(),    oracle_target(), properties_target(),
-      replay_target(),  script_target(),   settings_target(), state_target(),  stream_target()};
+  static const std::array all = {catalog_target(),    compiled_target(), oracle_target(),
+                                 properties_target(), replay_target(),   script_target(),
+                                 settings_target(),   state_target(),    stream_target()};
   return all;
 }
 

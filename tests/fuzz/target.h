@@ -55,7 +55,6 @@ inline void require(bool holds, std::string_view why) {
 
 [[nodiscard]] Target catalog_target();
 [[nodiscard]] Target compiled_target();
-[[nodiscard]] Target merge_target();
 [[nodiscard]] Target oracle_target();
 [[nodiscard]] Target properties_target();
 [[nodiscard]] Target replay_target();

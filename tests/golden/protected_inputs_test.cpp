@@ -26,8 +26,6 @@ class ProtectedInputs : public CompiledFiles {
     folder.write("properties.yaml", "catalog: robot.yaml\nproperties: [{can_start: LAND}]\n");
     folder.write("log.jsonl",
                  cbc({"solve", "robot.cbc", "missions/mission.yaml", "--format", "jsonl"}).out);
-    folder.write("shard.json",
-                 cbc({"sweep", "robot.cbc", "--sequences", "2", "--format", "json"}).out);
   }
 
   /// Tries to replace an input by its name, by a symbolic and by a hard link.
@@ -81,7 +79,6 @@ TEST_F(ProtectedInputs, AreFilesThatOtherFilesName) {
 TEST_F(ProtectedInputs, AreFilesOfTheCommandLine) {
   expect_protected({"solve", "--replay", "log.jsonl", "robot.cbc", "--to-script"}, "log.jsonl");
   expect_protected({"solve", "--replay", "log.jsonl", "robot.cbc", "--to-script"}, "robot.cbc");
-  expect_protected({"sweep", "--merge", "shard.json", "--slowest"}, "shard.json");
   expect_protected({"verify", "properties.yaml", "--html"}, "properties.yaml");
 }
 

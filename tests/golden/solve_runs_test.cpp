@@ -146,24 +146,6 @@ TEST_F(SolveRuns, HaveTheirCoverageInAFile) {
   }
 }
 
-TEST_F(SolveRuns, AreCoveredInPartsAsInOne) {
-  fs::create_directory(folder / "others");
-  fs::rename(folder / "missions/m103.yaml", folder / "others/m103.yaml");
-  const auto write = [this](const std::vector<std::string>& folders, const std::string& file) {
-    std::vector<std::string> arguments{"coverage", "catalog.yaml", "--format", "json", "-o", file};
-    arguments.insert(arguments.end(), folders.begin(), folders.end());
-    static_cast<void>(run({arguments, folder.path()}));
-  };
-  write({"missions", "others"}, "all.json");
-  write({"missions"}, "some.json");
-  write({"others"}, "rest.json");
-  const Result merged = run({{"coverage", "--merge", "--format", "json", "catalog.yaml",
-                              "some.json", "rest.json", "some.json"},
-                             folder.path()});
-  EXPECT_EQ(merged.status, 0);
-  EXPECT_EQ(merged.out, folder.read("all.json"));
-}
-
 TEST_F(SolveRuns, HaveStatisticsInTheText) {
   const std::string text = solve({"--stats"}).out;
   const std::size_t table = text.find("\nsearches\n");

@@ -71,31 +71,5 @@ TEST_F(Sweep, IsTheSameForACompiledCatalogElsewhere) {
   EXPECT_EQ(moved, Json::parse(text));
 }
 
-TEST_F(Sweep, MergesShardsWithStatistics) {
-  for (const std::string shard : {"1", "2"}) {
-    scratch.write(shard, call({"sweep", catalog, "--sequences", "20", "--shard", shard + "/2",
-                               "--stats", "--format", "json"}));
-  }
-  const std::string merged = call({"sweep", "--merge", "2", "1", "--format", "json"});
-  EXPECT_EQ(find_contradictions(merged), std::vector<std::string>());
-  Json sweep = Json::parse(merged);
-  EXPECT_EQ(sweep["stats"]["elapsed_us"],
-            Json::parse(scratch.read("1"))["stats"]["elapsed_us"].get<int>() +
-                Json::parse(scratch.read("2"))["stats"]["elapsed_us"].get<int>());
-  sweep.erase("stats");
-  EXPECT_EQ(sweep, Json::parse(call({"sweep", catalog, "--sequences", "20", "--format", "json"})));
-}
-
-TEST_F(Sweep, RunsAsTheRecipeForParallelSays) {
-  if (std::system("parallel --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no GNU parallel";
-  const std::string command =
-      "cd '" + scratch.path() + "' && parallel --will-cite '" CBC_PROGRAM_PATH " sweep " + catalog +
-      " --sequences 100 --shard {}/8 -j 1 --format json > shard-{}.json' ::: $(seq 8) && " +
-      CBC_PROGRAM_PATH " sweep --merge shard-*.json --format json > merged.json";
-  ASSERT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(scratch.read("merged.json"),
-            call({"sweep", catalog, "--sequences", "100", "--format", "json"}));
-}
-
 }  // namespace
 }  // namespace cbc::golden::sweep_test

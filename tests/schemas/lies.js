@@ -237,7 +237,7 @@ const lies = {
     ['a kind of event too many', whole, ({events}) => events.push(events[0])],
     ['a task that never ran twice', whole, {never_ran: ['A', 'A']}],
     ['a share over 1', (sweep) => sweep.options, {faults: 1.5}],
-    ['shard 0', (sweep) => sweep.shard, {index: 0}],
+    ['a part from sequence 0', whole, {first_sequence: 0}],
     ['a reason without rejections', (sweep) => sweep.reasons[0], {count: 0}],
     ['a task that excludes nothing', exclusion, {tasks: ['A']}],
     ['three tasks that exclude one another', exclusion, {tasks: ['A', 'B', 'C']}],

@@ -32,11 +32,6 @@ Option& Option::separated_by(char character) {
   return *this;
 }
 
-Option& Option::makes_arguments(ValueKind kind) {
-  values.kind = kind;
-  return *this;
-}
-
 Option& Option::not_with(std::vector<std::string> others, std::string reason) {
   exclusions.push_back({std::move(others), std::move(reason)});
   return *this;

@@ -58,8 +58,6 @@ struct Option {
   Option& without(std::string value);
   /// Lets several values be given at once.
   Option& separated_by(char character);
-  /// Makes a flag turn the arguments into files of this kind.
-  Option& makes_arguments(ValueKind kind);
   /// Refuses it beside any of the others. The reason follows a colon; it may be empty.
   Option& not_with(std::vector<std::string> others, std::string reason = {});
   /// Refuses it unless one of the others is there, too.

@@ -145,8 +145,6 @@ void offer_kind(ValueKind kind, const ParsedLine& line, Completion& completion) 
       return offer_files({"yaml", "yml", "json"}, completion);
     case ValueKind::catalog_or_script:
       return offer_files({"yaml", "yml", "json", "cbc"}, completion);
-    case ValueKind::shard:
-      return offer_files({"json"}, completion);
     case ValueKind::file:
       return offer_files({}, completion);
     case ValueKind::task:
@@ -166,14 +164,6 @@ void offer_values(const Option& option, const ParsedLine& line, const std::strin
   }
   if (option.values.names) offer_names(option.values.names(), completion);
   offer_kind(option.values.kind, line, completion);
-}
-
-/// What a flag on the line makes of the arguments.
-std::optional<ValueKind> kind_of_arguments(const ParsedLine& line) {
-  for (const auto& [option, values] : line.given) {
-    if (option->is_flag && option->values.kind != ValueKind::text) return option->values.kind;
-  }
-  return std::nullopt;
 }
 
 /// Follows from the declarations of the command line. `words` follow the name of the program; the
@@ -208,8 +198,6 @@ Completion complete(const Program& program, const std::vector<std::string>& word
   const Option* const positional = next_argument(*before.command, before.arguments.size());
   if (is_dash || (positional == nullptr && last.empty() && !before.has_separator)) {
     offer_options(*before.command, completion);
-  } else if (const auto kind = kind_of_arguments(whole); positional != nullptr && kind) {
-    offer_kind(*kind, whole, completion);
   } else if (positional != nullptr) {
     offer_values(*positional, whole, last, completion);
   }

@@ -62,14 +62,9 @@ Values old_and_new_name() {
 
 Values name_of(std::string placeholder, ValueKind kind) {
   // In the order of the enumerators.
-  static constexpr std::array<const char*, 8> expected = {"a value",
-                                                          "a catalog",
-                                                          "a script",
-                                                          "a catalog or a script",
-                                                          "the result of a shard",
-                                                          "a file",
-                                                          "a task",
-                                                          "a task or a behavior"};
+  static constexpr std::array<const char*, 7> expected = {
+      "a value", "a catalog",           "a script", "a catalog or a script", "a file",
+      "a task",  "a task or a behavior"};
   Values values{std::move(placeholder), expected.at(static_cast<std::size_t>(kind))};
   values.kind = kind;
   return values;

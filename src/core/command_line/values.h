@@ -19,7 +19,6 @@ enum class ValueKind : std::uint8_t {
   catalog,            ///< a file with a catalog, or a folder of them
   script,             ///< a file with a script
   catalog_or_script,  ///< either, or a folder of scripts
-  shard,              ///< a file with the result of a shard
   file,               ///< any file
   task,               ///< the name of a task of the catalog on the line
   task_or_behavior,   ///< the name of either

@@ -74,16 +74,6 @@ std::optional<std::string> read_input(const std::string& path) {
   return read_stream(file.get(), path);
 }
 
-std::optional<std::string> read_result(const std::string& path) {
-  // Enough for a catalog of 300,000 behaviors. Larger results are refused, because parsed JSON
-  // takes many times the memory of its text.
-  constexpr std::size_t largest = std::size_t{64} << 20U;
-  std::optional<std::string> text = read_input(path);
-  if (!text || text->size() <= largest) return text;
-  complain("cannot merge {}: it is larger than {} MiB", quote(display_name(path)), largest >> 20U);
-  return std::nullopt;
-}
-
 std::string display_name(const std::string& path) { return path == "-" ? "<stdin>" : path; }
 
 std::vector<std::string> list_folder(const std::string& path,

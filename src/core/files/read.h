@@ -17,9 +17,6 @@ std::nullopt_t cannot_read(const std::string& path, const std::string& reason);
 /// The content of a file, or of standard input for "-".
 [[nodiscard]] std::optional<std::string> read_input(const std::string& path);
 
-/// The same for a JSON result that is to be merged with others.
-[[nodiscard]] std::optional<std::string> read_result(const std::string& path);
-
 /// The name of an input in messages and reports.
 [[nodiscard]] std::string display_name(const std::string& path);
 

@@ -168,107 +168,12 @@ constexpr auto report =
 
 }  // namespace json::coverage
 
-namespace {
-
-using yaml::JsonFault;
-using yaml::JsonValue;
-
-/// Reads a report on a catalog. Throws a JsonFault.
-class CoverageReader {
- public:
-  explicit CoverageReader(CatalogCoverage& coverage) : coverage_(coverage) {
-    for (std::size_t goal = 0; goal < coverage.goals().size(); ++goal) {
-      goals_.emplace(identity_of(coverage.goals()[goal]), goal);
-    }
-  }
-
-  void read(const JsonValue& root) {
-    if (root["schema"].text() != "cbc.coverage/1") {
-      throw JsonFault("its schema is not 'cbc.coverage/1'");
-    }
-    const std::vector<JsonValue> catalogs = root["catalogs"].items();
-    const auto find = [&](const char* member, std::string_view text) {
-      return std::find_if(catalogs.begin(), catalogs.end(),
-                          [&](const JsonValue& catalog) { return catalog[member].text() == text; });
-    };
-    // Another machine may have it elsewhere.
-    if (const auto found = find("digest", coverage_.digest()); found != catalogs.end()) {
-      return read_catalog(*found);
-    }
-    const std::string_view file = coverage_.catalog().file;
-    throw JsonFault(find("catalog", file) == catalogs.end()
-                        ? fmt::format("it has nothing about {}", quote(file))
-                        : fmt::format("it is about another version of {}", quote(file)));
-  }
-
- private:
-  /// The same text for goals that are the same.
-  [[nodiscard]] std::string identity_of(const Goal& goal) const {
-    return json::document(json::coverage::identity, goal, coverage_.catalog());
-  }
-
-  static std::string identity_of(const JsonValue& goal) {
-    return json_line([&](JsonWriter& json) {
-      for (const char* const name :
-           {"kind", "behavior", "task", "other_task", "variable", "value"}) {
-        if (const auto value = goal.find(name)) json.write(name, value->text());
-      }
-    });
-  }
-
-  void read_catalog(const JsonValue& catalog) {
-    std::vector<std::string> missions;
-    std::unordered_map<std::string, std::size_t> places;
-    for (const JsonValue& mission : catalog["missions"].items()) {
-      places.emplace(mission.text(), missions.size());
-      missions.push_back(mission.text());
-    }
-    std::vector<std::vector<std::uint8_t>> met(
-        missions.size(), std::vector<std::uint8_t>(coverage_.goals().size(), 0));
-    for (const JsonValue& goal : catalog["goals"].items()) {
-      const auto known = goals_.find(identity_of(goal));
-      if (known == goals_.end()) {
-        throw JsonFault("it has a goal that this version of cbc does not know");
-      }
-      for (const JsonValue& mission : goal["met_by"].items()) {
-        const auto place = places.find(mission.text());
-        if (place == places.end()) {
-          throw JsonFault(fmt::format("'missions' does not have {}", quote(mission.text())));
-        }
-        met[place->second][known->second] = 1;
-      }
-    }
-    for (std::size_t place = 0; place < missions.size(); ++place) {
-      coverage_.add(missions[place], met[place]);
-    }
-  }
-
-  CatalogCoverage& coverage_;
-  std::unordered_map<std::string, std::size_t> goals_;  ///< by identity
-};
-
-}  // namespace
-
 std::string coverage_to_json(const Coverage& coverage) {
   return json::document(json::coverage::report, coverage);
 }
 
 std::string coverage_schema() {
   return json::schema("coverage", "Coverage of missions", json::coverage::report);
-}
-
-std::string add_coverage_json(std::string_view text, CatalogCoverage& coverage) {
-  yaml::JsonReader reader;
-  const yaml::Node* const root = reader.read(text);
-  if (root == nullptr) {
-    return reader.fault() + "; --merge reads what '--format json' writes";
-  }
-  try {
-    CoverageReader(coverage).read(JsonValue(*root));
-  } catch (const JsonFault& fault) {
-    return fault.what();
-  }
-  return {};
 }
 
 }  // namespace cbc

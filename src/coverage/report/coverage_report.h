@@ -48,10 +48,6 @@ inline constexpr std::string_view incomplete_proof =
 /// Workflow commands of GitHub Actions: one for each line with goals that are not met.
 [[nodiscard]] std::string coverage_to_github(const Coverage& coverage);
 
-/// Adds the missions of a JSON report on the same catalog. Returns why it cannot, for people, or
-/// nothing. Whatever the text, the coverage may be reported.
-[[nodiscard]] std::string add_coverage_json(std::string_view text, CatalogCoverage& coverage);
-
 struct CoverageFormat {
   std::string_view name;
   std::string (*write)(const Coverage& coverage, const Style& style, std::size_t columns);

@@ -31,7 +31,7 @@ def verify(*files, scripts=None, html=None, jobs=None, confine=None, refused=Non
     return run("verify", options.pop("files"), options)
 
 
-def coverage(*files, fail_under=None, merge=False, jobs=None, confine=None, prove=False,
+def coverage(*files, fail_under=None, jobs=None, confine=None, prove=False,
              mutants=False, scripts=None, assume=None, max_states=None,
              max_memory=None, time_limit=None, max_solutions=None, max_nodes=None,
              max_clock_events=None):
@@ -40,10 +40,10 @@ def coverage(*files, fail_under=None, merge=False, jobs=None, confine=None, prov
     return run("coverage", options.pop("files"), options)
 
 
-def sweep(*files, jobs=None, stats=False, slowest=None, slowest_by_time=None, merge=False,
+def sweep(*files, jobs=None, stats=False, slowest=None, slowest_by_time=None,
           confine=None, against=None, renamed=None, allow_missing=False, scripts=None,
           sequences=None, seed=None, events=None, priorities=None, failures=None, faults=None,
-          shard=None, max_solutions=None, max_nodes=None, max_clock_events=None):
+          max_solutions=None, max_nodes=None, max_clock_events=None):
     """Runs random events and faults: cbc-sweep(1)."""
     options = locals()
     return run("sweep", options.pop("files"), options)

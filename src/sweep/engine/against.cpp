@@ -30,30 +30,6 @@ bool comes_first(const auto& one, std::uint64_t steps, std::uint64_t sequence) {
 
 }  // namespace
 
-void SweptComparison::add(SweptComparison part) {
-  events += part.events;
-  sequences += part.sequences;
-  for (SweptDifference& difference : part.differences) {
-    const auto known =
-        std::find_if(differences.begin(), differences.end(),
-                     [&](const SweptDifference& one) { return one.line == difference.line; });
-    if (known == differences.end()) {
-      differences.push_back(std::move(difference));
-      continue;
-    }
-    const std::uint64_t sum = known->sequences + difference.sequences;
-    if (std::tie(difference.events, difference.sequence) <
-        std::tie(known->events, known->sequence)) {
-      *known = std::move(difference);
-    }
-    known->sequences = sum;
-  }
-  std::sort(differences.begin(), differences.end(),
-            [](const SweptDifference& a, const SweptDifference& b) {
-              return a.sequences != b.sequences ? a.sequences > b.sequences : a.line < b.line;
-            });
-}
-
 ComparedVersions::ComparedVersions(const CompiledCatalog& old_version,
                                    const CompiledCatalog& new_version, const Renames& renames)
     : old_catalog(old_version),

@@ -36,9 +36,6 @@ struct SweptComparison {
   std::uint64_t events = 0;                  ///< scripted ones whose answers were compared
   std::uint64_t sequences = 0;               ///< that show a difference
   std::vector<SweptDifference> differences;  ///< the most frequent first
-
-  /// Adds another part of the same sweep.
-  void add(SweptComparison part);
 };
 
 /// Two catalogs, and what is the same in them. The catalogs must outlive it.

@@ -29,25 +29,15 @@ struct SweepSearch {
   std::uint64_t max_solutions = 0;
   std::uint64_t max_nodes = 0;
   std::uint64_t max_clock_events = CoordinatorOptions{}.max_clock_events;  ///< in each sequence
-
-  bool operator==(const SweepSearch&) const = default;
-};
-
-/// The share of the sequences that is run: number `index` (from 1) of `count`.
-struct SweepShard {
-  std::uint64_t index = 1;
-  std::uint64_t count = 1;
-
-  bool operator==(const SweepShard&) const = default;
 };
 
 /// Everything that the result of a sweep on a catalog depends on.
 struct SweepSettings {
+  std::uint64_t first = 0;  ///< sequence, from 0: parts of a sweep may run on several machines
   std::uint64_t sequences = 1;
   std::uint64_t seed = 1;
   SweepShape shape;
   SweepSearch search;
-  SweepShard shard;
 };
 
 /// Receives every event of a sequence, with the state after it.
@@ -87,14 +77,13 @@ struct SequenceEnd {
 /// digits (less than 0.2 % off), which bounds the memory.
 class Histogram {
  public:
-  void add(std::uint64_t number) { add_rounded(round_down(number), 1); }
-  void add(const Histogram& other) {
-    for (const auto& [number, count] : other.counts_) add_rounded(number, count);
+  void add(std::uint64_t number) {
+    ++counts_[round_down(number)];
+    ++total_;
   }
-  /// `number` is one that round_down returns.
-  void add_rounded(std::uint64_t number, std::uint64_t count) {
-    counts_[number] += count;
-    total_ += count;
+  void add(const Histogram& other) {
+    for (const auto& [number, count] : other.counts_) counts_[number] += count;
+    total_ += other.total_;
   }
 
   [[nodiscard]] static std::uint64_t round_down(std::uint64_t number);

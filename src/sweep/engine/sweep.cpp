@@ -1,9 +1,9 @@
 // Monte Carlo simulation: what happens how often is estimated by random event sequences, each on a
 // coordinator of its own. Sequence n draws from random stream n (SplitMix64: G. L. Steele, D. Lea
 // and C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014), whoever runs it,
-// and everything that is kept is a sum or an earliest maximum. So threads and shards may share the
-// sequences in any way, and the result, apart from times, is the same. Of the slowest event only
-// its number is kept: its sequence is drawn again in the end, and becomes a script.
+// and everything that is kept is a sum or an earliest maximum. So threads and machines may share
+// the sequences in any way, and the result, apart from times, is the same. Of the slowest event
+// only its number is kept: its sequence is drawn again in the end, and becomes a script.
 //
 // One stream for all sequences would be simpler, but then their events would depend on who comes
 // first. And events are drawn to suit the state: of others, most would be rejected or change
@@ -34,7 +34,7 @@ namespace cbc {
 namespace {
 
 /// Whether an event is slower than another one. Among equal costs the earliest event wins, so that
-/// the result does not depend on the order of threads and shards.
+/// the result does not depend on the order of threads.
 bool is_slower(const auto& one, const auto& other) {
   return one.cost != other.cost
              ? one.cost > other.cost
@@ -44,100 +44,6 @@ bool is_slower(const auto& one, const auto& other) {
 void keep_slower(auto& slowest, auto other) {
   if (other && (!slowest || is_slower(*other, *slowest))) slowest = std::move(other);
 }
-
-}  // namespace
-
-std::optional<std::string> SweepMerger::add(SweepResult shard, const std::string& file) {
-  const std::uint64_t index = shard.settings.shard.index;
-  if (files_.empty()) {
-    merged_ = std::move(shard);
-    files_[index] = file;
-    return std::nullopt;
-  }
-  const std::string& first = files_.begin()->second;
-  if (const auto difference = find_difference(shard)) {
-    return fmt::format("{} does not belong to {}: {}", quote(file), quote(first), *difference);
-  }
-  if (const auto known = files_.find(index); known != files_.end()) {
-    return fmt::format("{} is shard {}/{} again, after {}", quote(file), index,
-                       shard.settings.shard.count, quote(known->second));
-  }
-  // The paths of the catalog may differ. That of the lowest shard counts, so that the order of the
-  // shards does not matter.
-  if (index < files_.begin()->first) {
-    merged_.catalog = std::move(shard.catalog);
-    if (merged_.against) merged_.against->old_catalog = shard.against->old_catalog;
-  }
-  files_[index] = file;
-  merged_.counts.add(shard.counts);
-  merged_.nodes.add(shard.nodes);
-  if (merged_.against) merged_.against->add(std::move(*shard.against));
-  keep_slower(merged_.slowest, std::move(shard.slowest));
-  if (merged_.times) {
-    merged_.times->elapsed += shard.times->elapsed;
-    merged_.times->events.add(shard.times->events);
-    keep_slower(merged_.times->slowest, std::move(shard.times->slowest));
-  }
-  return std::nullopt;
-}
-
-/// The first mismatch between a shard and the others.
-std::optional<std::string> SweepMerger::find_difference(const SweepResult& shard) const {
-  const SweepSettings& ours = merged_.settings;
-  const SweepSettings& theirs = shard.settings;
-  const auto differs = [](std::string_view what, const auto& found, const auto& expected) {
-    return fmt::format("its {} is {}, not {}", what, found, expected);
-  };
-  if (shard.version != merged_.version) {
-    return differs("version of cbc", quote(shard.version), quote(merged_.version));
-  }
-  if (shard.against.has_value() != merged_.against.has_value()) {
-    return "only one of them was made with '--against'";
-  }
-  if (shard.against && shard.against->old_digest != merged_.against->old_digest) {
-    return "it is against another catalog";
-  }
-  if (shard.digest != merged_.digest || shard.task_names != merged_.task_names ||
-      shard.behavior_names != merged_.behavior_names) {
-    return "it is for another catalog";
-  }
-  if (theirs.sequences != ours.sequences) {
-    return differs("number of sequences", theirs.sequences, ours.sequences);
-  }
-  if (theirs.seed != ours.seed) return differs("seed", theirs.seed, ours.seed);
-  if (theirs.shape != ours.shape || theirs.search != ours.search) return "it has other options";
-  if (theirs.shard.count != ours.shard.count) {
-    return differs("number of shards", theirs.shard.count, ours.shard.count);
-  }
-  if (shard.times.has_value() != merged_.times.has_value()) {
-    return "only one of them was made with '--stats'";
-  }
-  return std::nullopt;
-}
-
-std::optional<std::string> SweepMerger::find_missing() const {
-  constexpr std::size_t most_named = 10;
-  const std::uint64_t count = merged_.settings.shard.count;
-  std::string missing;
-  std::size_t number = 0;
-  for (std::uint64_t index = 1; index <= count; ++index) {
-    if (files_.contains(index)) continue;
-    ++number;
-    if (number <= most_named)
-      missing += fmt::format("{}{}/{}", number > 1 ? ", " : "", index, count);
-  }
-  if (number == 0) return std::nullopt;
-  if (number > most_named) missing += fmt::format(" and {} more", number - most_named);
-  return fmt::format("{} of the sweep {} missing: {}", number == 1 ? "a shard" : "shards",
-                     number == 1 ? "is" : "are", missing);
-}
-
-SweepResult SweepMerger::take() {
-  merged_.settings.shard = {};
-  return std::move(merged_);
-}
-
-namespace {
 
 using Clock = std::chrono::steady_clock;
 
@@ -279,9 +185,10 @@ class Work {
  public:
   explicit Work(const Swept& swept)
       : swept_(swept),
-        range_(sequences_of(swept.settings)),
-        next_(range_.first),
-        failed_(range_.end) {}
+        first_(swept.settings.first),
+        end_(first_ + swept.settings.sequences),
+        next_(first_),
+        failed_(end_) {}
 
   /// Runs sequences until there are no more.
   void do_share(Tally& tally, const std::function<void(std::uint64_t)>& progress) {
@@ -291,12 +198,12 @@ class Work {
       // of threads.
       if (sequence >= failed_.load()) return;
       if (run(swept_, sequence, tally).status != Coordinator::Status::ok) note_failure(sequence);
-      if (progress) progress(std::min(next_.load(), range_.end) - range_.first);
+      if (progress) progress(std::min(next_.load(), end_) - first_);
     }
   }
 
   [[nodiscard]] std::optional<std::uint64_t> failed() const {
-    return failed_.load() < range_.end ? std::optional(failed_.load()) : std::nullopt;
+    return failed_.load() < end_ ? std::optional(failed_.load()) : std::nullopt;
   }
 
  private:
@@ -307,7 +214,8 @@ class Work {
   }
 
   const Swept swept_;
-  const SequenceRange range_;
+  const std::uint64_t first_;
+  const std::uint64_t end_;
   std::atomic<std::uint64_t> next_;
   std::atomic<std::uint64_t> failed_;  ///< the first sequence that failed, or the end
 };
@@ -363,7 +271,10 @@ SweptComparison to_comparison(const Swept& swept, const ComparedVersions& compar
     result.differences.push_back({line, found.sequences, found.sequence + 1, found.steps,
                                   swept.script_of(std::move(steps), comment)});
   }
-  result.add({});  // in order
+  std::sort(result.differences.begin(), result.differences.end(),
+            [](const SweptDifference& a, const SweptDifference& b) {
+              return a.sequences != b.sequences ? a.sequences > b.sequences : a.line < b.line;
+            });
   return result;
 }
 
@@ -383,19 +294,11 @@ std::vector<std::string> to_strings(const Texts& names) {
 
 }  // namespace
 
-SequenceRange sequences_of(const SweepSettings& settings) {
-  const std::uint64_t share = settings.sequences / settings.shard.count;
-  const std::uint64_t rest = settings.sequences % settings.shard.count;  // one more for the first
-  const auto begin_of = [&](std::uint64_t place) { return share * place + std::min(place, rest); };
-  return {begin_of(settings.shard.index - 1), begin_of(settings.shard.index)};
-}
-
 SweepOutcome sweep(const CompiledCatalog& catalog, const SweepSettings& settings, std::size_t jobs,
                    const std::function<void(std::uint64_t)>& progress,
                    const std::optional<OldVersion>& old_version) {
   const Clock::time_point begin = Clock::now();
-  const SequenceRange range = sequences_of(settings);
-  const auto threads = std::clamp<std::uint64_t>(range.end - range.first, 1, jobs);
+  const auto threads = std::clamp<std::uint64_t>(settings.sequences, 1, jobs);
   std::optional<ComparedVersions> compared;
   if (old_version) compared.emplace(old_version->catalog, catalog, old_version->renames);
   const DrawnNames all_names(catalog);

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,12 +25,12 @@ struct SlowestEvent {
 /// The results that depend on the machine. Times are those of whole events that took a search: the
 /// problem, the searches, the checks and the changes.
 struct SweepTimes {
-  std::uint64_t elapsed = 0;  ///< microseconds; of all shards together
+  std::uint64_t elapsed = 0;  ///< microseconds
   Histogram events;           ///< nanoseconds
   std::optional<SlowestEvent> slowest;
 };
 
-/// The result of a sweep or of a shard of one.
+/// The result of a sweep.
 struct SweepResult {
   std::string catalog;  ///< path of the source, as the user gave it
   std::string digest;   ///< of the content of the catalog without its path; hexadecimal
@@ -44,37 +43,6 @@ struct SweepResult {
   std::optional<SlowestEvent> slowest;  ///< by nodes, the first of equal ones; empty: no search
   std::optional<SweepTimes> times;
   std::optional<SweptComparison> against;  ///< with an older version
-};
-
-/// The sequences of a shard: from `first` up to `end`, from 0.
-struct SequenceRange {
-  std::uint64_t first = 0;
-  std::uint64_t end = 0;
-};
-
-[[nodiscard]] SequenceRange sequences_of(const SweepSettings& settings);
-
-/// The largest number of shards, so that sums of their numbers fit.
-inline constexpr std::uint64_t most_shards = 1000;
-/// The largest number that a shard may contain.
-inline constexpr std::uint64_t largest_count = std::uint64_t{1} << 53U;
-
-/// Merges the shards of a sweep, in any order, into the result of the whole sweep.
-class SweepMerger {
- public:
-  /// Adds a shard that was read from `file`. Returns why it does not match the others, for people,
-  /// or nothing.
-  [[nodiscard]] std::optional<std::string> add(SweepResult shard, const std::string& file);
-  /// Says which shards are missing, for people; empty if there are all.
-  [[nodiscard]] std::optional<std::string> find_missing() const;
-  /// The result. No shard may be missing.
-  [[nodiscard]] SweepResult take();
-
- private:
-  [[nodiscard]] std::optional<std::string> find_difference(const SweepResult& shard) const;
-
-  SweepResult merged_;
-  std::map<std::uint64_t, std::string> files_;  ///< by index of the shard
 };
 
 /// The first sequence that ended early.

@@ -1,18 +1,14 @@
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "core/support/json_description.h"
-#include "core/yaml/json_value.h"
 #include "runtime/base/text.h"
 #include "sweep/engine/sweep.h"
 #include "sweep/report/sweep_report.h"
@@ -30,10 +26,6 @@ struct Share {
   }
   void put_schema(JsonWriter& json, Definitions& definitions) const {
     json::share.put_schema(json, definitions);
-  }
-  void read(const auto& json, Millionths& value, const auto& /*context*/) const {
-    const double number = json.number(0, 1, "from 0 to 1");
-    value = static_cast<Millionths>(std::lround(number * one_million));
   }
 };
 
@@ -61,9 +53,6 @@ constexpr auto options = object(
                member("max_clock_events", integer(1),
                       "Limit of clock events in each sequence (--max-clock-events).",
                       &SweepSearch::max_clock_events))));
-
-constexpr auto shard = object("", "", member("index", integer(1), "", &SweepShard::index),
-                              member("count", integer(1, most_shards), "", &SweepShard::count));
 
 constexpr auto outcomes =
     group(member("accepted", number_of_events, "", &OutcomeCounts::accepted),
@@ -114,23 +103,6 @@ struct Events {
     json.write("minItems", sweep_kinds);
     json.write("items", false);
   }
-  void read(const auto& json, Counts& counts, const auto& context) const {
-    std::vector<OfKind> read;
-    list(kind_with_outcomes).read(json, read, context);
-    if (read.size() != sweep_kinds) {
-      throw yaml::JsonFault("'events' does not have one item for each kind");
-    }
-    for (std::size_t kind = 0; kind < sweep_kinds; ++kind) {
-      const auto& [found, of_kind] = read[kind];
-      if (found != static_cast<SweepKind>(kind)) {
-        throw yaml::JsonFault("the kinds of 'events' are not those of this version");
-      }
-      if (of_kind.escalated > of_kind.accepted) {
-        throw yaml::JsonFault("more events are 'escalated' than are 'accepted'");
-      }
-      counts.at(kind) = of_kind;
-    }
-  }
 };
 
 constexpr auto task_counts =
@@ -171,15 +143,8 @@ constexpr auto behaviors =
     member("behaviors", counted("behavior", behavior_counts), "All behaviors, in catalog order.",
            [](const SweepResult& of) { return each(of.behavior_names, of.counts.behaviors); });
 
-/// The names that are read, with their places.
-struct Places {
-  using ByName = std::unordered_map<std::string, std::uint32_t>;
-  ByName tasks;
-  ByName behaviors;
-};
-
 /// A task or a behavior, by its place.
-template <std::vector<std::string> SweepResult::*names, Places::ByName Places::*places>
+template <std::vector<std::string> SweepResult::*names>
 struct Place {
   [[nodiscard]] static bool has(std::uint32_t place) { return place != none; }
   void write(JsonWriter& json, std::uint32_t place, const SweepResult& result) const {
@@ -188,15 +153,9 @@ struct Place {
   void put_schema(JsonWriter& json, Definitions& definitions) const {
     text.put_schema(json, definitions);
   }
-  void read(const auto& json, std::uint32_t& place, const Places& known) const {
-    const std::string name = json.text();
-    const auto found = (known.*places).find(name);
-    if (found == (known.*places).end()) json.refuse_word(name);
-    place = found->second;
-  }
 };
-constexpr Place<&SweepResult::task_names, &Places::tasks> task;
-constexpr Place<&SweepResult::behavior_names, &Places::behaviors> behavior;
+constexpr Place<&SweepResult::task_names> task;
+constexpr Place<&SweepResult::behavior_names> behavior;
 
 using CountedReason = std::pair<RejectionReason, std::uint64_t>;
 
@@ -212,13 +171,6 @@ struct BothTasks {
   }
   void put_schema(JsonWriter& json, Definitions& definitions) const {
     both.put_schema(json, definitions);
-  }
-  void read(const auto& json, RejectionReason& reason, const Places& places) const {
-    std::vector<std::uint32_t> read;
-    both.read(json, read, places);
-    if (read.size() != 2) throw yaml::JsonFault("'tasks' of a reason is not a pair");
-    reason.task = read[0];
-    reason.other_task = read[1];
   }
   static constexpr auto both = list(task).exactly(2).unique();
 };
@@ -253,23 +205,6 @@ struct Counts {
   }
   void put_schema(JsonWriter& json, Definitions& definitions) const {
     pairs.put_schema(json, definitions);
-  }
-  static Histogram read(const yaml::JsonValue& json) {
-    Histogram histogram;
-    std::uint64_t next = 0;
-    for (const yaml::JsonValue& entry : json.items()) {
-      const std::vector<yaml::JsonValue> pair = entry.items();
-      if (pair.size() != 2) throw yaml::JsonFault("an entry of 'histogram' is not a pair");
-      const auto value = pair[0].integer<std::uint64_t>(0, largest_count);
-      const auto times = pair[1].integer<std::uint64_t>(0, largest_count);
-      if (value < next || Histogram::round_down(value) != value || times == 0 ||
-          times > largest_count - histogram.total()) {
-        throw yaml::JsonFault("the numbers of 'histogram' are out of range or out of order");
-      }
-      histogram.add_rounded(value, times);
-      next = value + 1;
-    }
-    return histogram;
   }
   static constexpr auto pairs =
       list(row(item(number_of_events, first_of), item(place_from_1, second_of)));
@@ -319,14 +254,13 @@ constexpr auto event_times =
 
 constexpr auto stats = optional(
     "stats",
-    object(
-        "stats", "With --stats: times, which differ from run to run.",
-        member("elapsed_us", number_of_events,
-               "Elapsed time in microseconds; for merged shards, the sum.", &SweepTimes::elapsed),
-        event_times,
-        member("slowest", nullable(slowest("longest", "ns", "Time in nanoseconds.")),
-               "The first event with the longest time; null if no event needed a search.",
-               &SweepTimes::slowest)),
+    object("stats", "With --stats: times, which differ from run to run.",
+           member("elapsed_us", number_of_events, "Elapsed time in microseconds.",
+                  &SweepTimes::elapsed),
+           event_times,
+           member("slowest", nullable(slowest("longest", "ns", "Time in nanoseconds.")),
+                  "The first event with the longest time; null if no event needed a search.",
+                  &SweepTimes::slowest)),
     "", &SweepResult::times);
 
 constexpr auto nodes =
@@ -379,14 +313,13 @@ constexpr auto against = optional(
                &SweptComparison::differences)),
     "", &SweepResult::against);
 
-constexpr std::string_view schema_name = "cbc.sweep/1";
-
 constexpr auto report = object(
     "",
     "The output of `cbc sweep --format json` (schema "
-    "cbc.sweep/1): what happened in N random sequences of events on a catalog, or in one shard of "
-    "them. Except for `stats`, it is the same on every machine.",
-    schema_member(schema_name),
+    "cbc.sweep/1): what happened in N random sequences of events on a catalog. Except for "
+    "`stats`, it is the same on every machine; counts of parts of a sweep add up to those of the "
+    "whole.",
+    schema_member("cbc.sweep/1"),
     member("catalog", any_text,
            "The catalog, as given; for a compiled catalog, the name of its source.",
            &SweepResult::catalog)
@@ -400,17 +333,14 @@ constexpr auto report = object(
            &SweepResult::version)
         .on_line(),
     part(&SweepResult::settings,
-         group(member("sequences", place_from_1,
-                      "Number of sequences in the whole sweep (--sequences).",
+         group(member("sequences", place_from_1, "Number of sequences (--sequences).",
                       &SweepSettings::sequences)
                    .on_line(),
+               member("first_sequence", place_from_1,
+                      "Number of the first one: 1, unless --sequences FIRST-LAST was given.",
+                      [](const SweepSettings& of) { return of.first + 1; }),
                member("seed", count, "The seed (--seed).", &SweepSettings::seed).on_line(),
-               member("options", options, "", std::identity()).on_line(),
-               member("shard", shard,
-                      "Which shard of the sequences was run (--shard): number `index` of `count`. "
-                      "1 of 1 is a whole sweep.",
-                      &SweepSettings::shard)
-                   .on_line())),
+               member("options", options, "", std::identity()).on_line())),
     part(&SweepResult::counts,
          member("events", Events(),
                 "The number of events with each outcome, for each kind of event, in this order.",
@@ -434,62 +364,6 @@ constexpr auto report = object(
         .on_line(),
     stats.on_line(), against.on_line());
 
-class Reader {
- public:
-  /// Throws a JsonFault.
-  [[nodiscard]] SweepResult read(const yaml::JsonValue& root) {
-    if (root["schema"].text() != schema_name) {
-      throw yaml::JsonFault(concat("its schema is not ", quote(schema_name)));
-    }
-    report.read(root, result_, NoContext());
-    const SweepSettings& settings = result_.settings;
-    if (settings.shard.index > settings.shard.count) {
-      throw yaml::JsonFault("'shard' has a larger 'index' than 'count'");
-    }
-    read_counted(tasks, root, result_.task_names, result_.counts.tasks, places_.tasks);
-    read_counted(behaviors, root, result_.behavior_names, result_.counts.behaviors,
-                 places_.behaviors);
-    std::vector<CountedReason> read;
-    reasons.type.read(root[reasons.name], read, places_);
-    result_.counts.reasons.insert(read.begin(), read.end());
-    result_.nodes = Counts::read(root[nodes.name][histogram.name]);
-    check_slowest(result_.slowest, result_.nodes);
-    if (result_.times) {
-      SweepTimes& times = *result_.times;
-      times.events = Counts::read(root[stats.name][event_times.name][histogram.name]);
-      check_slowest(times.slowest, times.events);
-    }
-    return std::move(result_);
-  }
-
- private:
-  template <typename Counts>
-  static void read_counted(const auto& member, const yaml::JsonValue& root,
-                           std::vector<std::string>& names, std::vector<Counts>& counts,
-                           Places::ByName& places) {
-    std::vector<std::pair<std::string, Counts>> read;
-    member.type.read(root[member.name], read, NoContext());
-    for (const auto& [name, of_name] : read) {
-      if (!places.emplace(name, static_cast<std::uint32_t>(names.size())).second) {
-        throw yaml::JsonFault(quote(name) + " occurs twice");
-      }
-      names.push_back(name);
-      counts.push_back(of_name);
-    }
-  }
-
-  void check_slowest(const std::optional<SlowestEvent>& most, const Histogram& costs) const {
-    const bool fits = most ? costs.total() > 0 &&
-                                 Histogram::round_down(most->cost) == costs.maximum() &&
-                                 most->sequence <= result_.settings.sequences
-                           : costs.total() == 0;
-    if (!fits) throw yaml::JsonFault("'slowest' does not fit the rest");
-  }
-
-  SweepResult result_;
-  Places places_;
-};
-
 }  // namespace json::sweep
 
 std::string sweep_to_json(const SweepResult& result) {
@@ -498,19 +372,6 @@ std::string sweep_to_json(const SweepResult& result) {
 
 std::string sweep_schema() {
   return json::schema("sweep", "Result of a sweep", json::sweep::report);
-}
-
-std::variant<SweepResult, std::string> sweep_from_json(std::string_view text) {
-  yaml::JsonReader reader;
-  const yaml::Node* const root = reader.read(text);
-  if (root == nullptr) {
-    return reader.fault() + "; --merge reads what '--shard I/N --format json' writes";
-  }
-  try {
-    return json::sweep::Reader().read(yaml::JsonValue(*root));
-  } catch (const yaml::JsonFault& fault) {
-    return fault.what();
-  }
 }
 
 }  // namespace cbc

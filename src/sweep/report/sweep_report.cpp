@@ -137,12 +137,9 @@ void add_times(const SweepTimes& times, Text& text) {
 }  // namespace
 
 std::string describe(const SweepSettings& settings) {
-  return fmt::format(
-      "{} of {}, seed {}{}", quantity(settings.sequences, "sequence"),
-      quantity(settings.shape.events, "event"), settings.seed,
-      settings.shard.count > 1
-          ? fmt::format(", shard {}/{} of it", settings.shard.index, settings.shard.count)
-          : "");
+  return fmt::format("{}{} of {}, seed {}", quantity(settings.sequences, "sequence"),
+                     settings.first > 0 ? fmt::format(" from number {}", settings.first + 1) : "",
+                     quantity(settings.shape.events, "event"), settings.seed);
 }
 
 std::string sweep_to_text(const SweepResult& result, const Style& style) {

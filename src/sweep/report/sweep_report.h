@@ -3,7 +3,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 
 #include "core/diagnostic/diagnostic.h"
 #include "sweep/engine/sweep.h"
@@ -15,10 +14,6 @@ namespace cbc {
 /// The result of a sweep as JSON; "stats" is there if the result has times.
 [[nodiscard]] std::string sweep_to_json(const SweepResult& result);
 [[nodiscard]] std::string sweep_schema();
-
-/// Reads what sweep_to_json wrote. Whatever the text, the result may be merged and reported; if it
-/// cannot be understood, the second alternative says why, for people.
-[[nodiscard]] std::variant<SweepResult, std::string> sweep_from_json(std::string_view text);
 
 /// The result of a sweep for people. Of one against an older version only the comparison.
 [[nodiscard]] std::string sweep_to_text(const SweepResult& result, const Style& style);
