@@ -25,7 +25,7 @@
 #include "core/script/runner.h"
 #include "core/support/system.h"
 #include "core/support/wording.h"
-#include "graph/engine/catalog_diff.h"
+#include "versions/difference/catalog_diff.h"
 #include "graph/engine/catalog_graph.h"
 #include "graph/engine/diagram.h"
 #include "graph/engine/state_recorder.h"

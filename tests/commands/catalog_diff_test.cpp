@@ -1,4 +1,4 @@
-#include "graph/engine/catalog_diff.h"
+#include "versions/difference/catalog_diff.h"
 
 #include <cstddef>
 #include <string>

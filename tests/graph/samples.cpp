@@ -16,7 +16,7 @@
 #include "core/compile/compile.h"
 #include "core/script/runner.h"
 #include "core/yaml/document.h"
-#include "graph/engine/catalog_diff.h"
+#include "versions/difference/catalog_diff.h"
 #include "graph/engine/catalog_graph.h"
 #include "graph/engine/diagram.h"
 #include "graph/engine/state_recorder.h"

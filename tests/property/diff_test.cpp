@@ -15,7 +15,7 @@
 #include "compiled_text.h"
 #include "environment.h"
 #include "generator.h"
-#include "graph/engine/catalog_diff.h"
+#include "versions/difference/catalog_diff.h"
 #include "graph/engine/catalog_graph.h"
 #include "random.h"
 #include "support/rounds.h"

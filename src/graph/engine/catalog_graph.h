@@ -11,7 +11,7 @@
 #include "core/catalog/situation.h"
 #include "core/compile/compile.h"
 #include "core/diagnostic/diagnostic.h"
-#include "graph/engine/catalog_diff.h"
+#include "versions/difference/catalog_diff.h"
 #include "runtime/compiled/compiled_catalog.h"
 
 /// A catalog as a graph: what pictures of it are drawn from, with marks for what stands out (a

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "graph/engine/catalog_diff.h"
+#include "versions/difference/catalog_diff.h"
 #include "graph/engine/catalog_graph.h"
 #include "runtime/base/text.h"
 

@@ -9,10 +9,10 @@
 #include "core/support/json.h"
 #include "core/support/json_description.h"
 #include "core/words/words.h"
-#include "graph/engine/catalog_diff.h"
-#include "graph/engine/catalog_facts.h"
 #include "graph/report/graph_report.h"
 #include "runtime/base/text.h"
+#include "versions/difference/catalog_diff.h"
+#include "versions/difference/catalog_facts.h"
 
 namespace cbc {
 namespace draw {

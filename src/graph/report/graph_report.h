@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/diagnostic/diagnostic.h"
-#include "graph/engine/catalog_diff.h"
+#include "versions/difference/catalog_diff.h"
 #include "graph/engine/catalog_graph.h"
 #include "graph/engine/diagram.h"
 

@@ -257,7 +257,7 @@ void find_direct_differences(const CompiledCatalog& old_catalog, const CompiledC
                       options));
   }
   for (DirectDifference& difference :
-       compare_attributes(old_catalog, new_catalog, translations.to_old)) {
+       compare_attributes(old_catalog, new_catalog, translations.to_old, scope.renames)) {
     result.direct.push_back(std::move(difference));
   }
 }

@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "core/catalog/allowed_values.h"
-#include "core/support/wording.h"
 #include "runtime/base/text.h"
 #include "runtime/coordinator/state.h"
+#include "versions/difference/catalog_diff.h"
+#include "versions/difference/catalog_facts.h"
 
 namespace cbc {
 
@@ -19,43 +19,54 @@ namespace {
 
 using Kind = DirectDifference::Kind;
 
-/// The attributes of two catalogs, as lines.
+/// What tasks of both catalogs are set to, and timeouts of their behaviors, as lines.
 class AttributeComparison {
  public:
   AttributeComparison(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
                       const Translation& to_old)
       : old_(old_catalog), new_(new_catalog), to_old_(to_old) {}
 
-  std::vector<DirectDifference> run() && {
+  std::vector<DirectDifference> run(const Renames& renames) && {
+    std::vector<CatalogChange> changes;
+    compare_facts(ChangeSubject::task, with_new_names(old_, new_, renames), with_own_names(new_),
+                  changes);
+    std::map<std::string_view, const CatalogChange*> by_name;
+    for (const CatalogChange& change : changes) {
+      if (change.kind == CatalogChange::Kind::changed) by_name.emplace(change.task, &change);
+    }
     for (const TaskId task : new_.task_ids) {
       const TaskId of_old = to_old_.tasks[task];
       if (of_old == none) continue;
-      const bool has_same_goal = compare_goals(of_old, task);
-      if (has_same_goal) compare_timeouts(of_old, task);
-      compare_parameters(of_old, task);
+      if (const auto found = by_name.find(new_.name_of_task(task)); found != by_name.end()) {
+        add_attributes(*found->second);
+      }
+      if (old_.tasks[of_old].keep_running == new_.tasks[task].keep_running) {
+        compare_timeouts(of_old, task);
+      }
     }
     return std::move(differences_);
   }
 
  private:
-  void add(Kind kind, std::string_view name, const std::string& what, const std::string& before,
-           const std::string& after) {
-    std::string line = fmt::format("{}: {} {} in {}, {} in {}", printable(name), what, before,
-                                   printable(old_.file), after, printable(new_.file));
+  void add(Kind kind, std::string_view name, const std::string& what, const AttributeValue& before,
+           const AttributeValue& after) {
+    std::string line =
+        fmt::format("{}: {} {} in {}, {} in {}", printable(name), what, describe(before),
+                    printable(old_.file), describe(after), printable(new_.file));
     const bool is_known =
         std::any_of(differences_.begin(), differences_.end(),
                     [&](const DirectDifference& known) { return known.line == line; });
     if (!is_known) differences_.push_back({kind, std::move(line)});
   }
 
-  bool compare_goals(TaskId of_old, TaskId of_new) {
-    const auto goal_of = [](const CompiledCatalog& catalog, TaskId task) {
-      return catalog.tasks[task].keep_running != 0 ? "keep_running" : "achieve_goal";
-    };
-    if (old_.tasks[of_old].keep_running == new_.tasks[of_new].keep_running) return true;
-    add(Kind::execution_goal, new_.name_of_task(of_new), "execution_goal", goal_of(old_, of_old),
-        goal_of(new_, of_new));
-    return false;
+  /// Others show in events.
+  void add_attributes(const CatalogChange& of_task) {
+    for (const AttributeChange& change : of_task.attributes) {
+      const bool is_goal = change.name == "execution_goal";
+      if (!is_goal && !change.name.starts_with(parameter_prefix)) continue;
+      add(is_goal ? Kind::execution_goal : Kind::parameter, of_task.task, printable(change.name),
+          change.before, change.after);
+    }
   }
 
   /// Of the task if its behaviors have none of their own, otherwise of the behavior.
@@ -70,49 +81,13 @@ class AttributeComparison {
           old_.behaviors[behavior].timeout == 0 && new_.behaviors[value.behavior].timeout == 0;
       add(Kind::timeout,
           is_of_task ? new_.name_of_task(of_new) : new_.name_of_behavior(value.behavior), "timeout",
-          describe(before), describe(after));
+          unless_zero(before), unless_zero(after));
     }
   }
   [[nodiscard]] bool performs(BehaviorId behavior, TaskId task) const {
     const auto values = old_.performs[behavior];
     return std::any_of(values.begin(), values.end(),
                        [&](ValueId value) { return old_.task_of(value) == task; });
-  }
-  static std::string describe(Microseconds timeout) {
-    return timeout == 0 ? "none" : format_decimal(timeout, 6) + " s";
-  }
-
-  void compare_parameters(TaskId of_old, TaskId of_new) {
-    using Allowed = std::map<std::string, std::set<std::string>>;
-    const auto allowed_by = [](const CompiledCatalog& catalog, TaskId task) {
-      Allowed allowed;
-      for (const Parameter& one : parameters_of(catalog, catalog.tasks[task].catalog_index)) {
-        allowed[one.name].insert(describe_allowed(one));
-      }
-      return allowed;
-    };
-    const Allowed before = allowed_by(old_, of_old);
-    const Allowed after = allowed_by(new_, of_new);
-    const auto describe_one = [](const Allowed& allowed, const std::string& name) {
-      const auto found = allowed.find(name);
-      if (found == allowed.end()) return std::string("none");
-      return join(found->second, " or ", [](const std::string& text) {
-        return text.empty() ? std::string("any") : printable(text);
-      });
-    };
-    std::set<std::string> names;
-    for (const auto& [name, texts] : before) names.insert(name);
-    for (const auto& [name, texts] : after) names.insert(name);
-    for (const std::string& name : names) {
-      const auto of_before = before.find(name);
-      const auto of_after = after.find(name);
-      if (of_before != before.end() && of_after != after.end() &&
-          of_before->second == of_after->second) {
-        continue;
-      }
-      add(Kind::parameter, new_.name_of_task(of_new), "parameter " + printable(name),
-          describe_one(before, name), describe_one(after, name));
-    }
   }
 
   const CompiledCatalog& old_;
@@ -229,8 +204,9 @@ class MissingSearch {
 
 std::vector<DirectDifference> compare_attributes(const CompiledCatalog& old_catalog,
                                                  const CompiledCatalog& new_catalog,
-                                                 const Translation& to_old) {
-  return AttributeComparison(old_catalog, new_catalog, to_old).run();
+                                                 const Translation& to_old,
+                                                 const Renames& renames) {
+  return AttributeComparison(old_catalog, new_catalog, to_old).run(renames);
 }
 
 MissingNames find_missing(const CompiledCatalog& catalog, const Translation& to_other,

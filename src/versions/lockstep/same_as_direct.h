@@ -18,7 +18,8 @@ namespace cbc {
 /// Timeouts, goals and parameters of what both have.
 [[nodiscard]] std::vector<DirectDifference> compare_attributes(const CompiledCatalog& old_catalog,
                                                                const CompiledCatalog& new_catalog,
-                                                               const Translation& to_old);
+                                                               const Translation& to_old,
+                                                               const Renames& renames);
 
 /// What only one of two catalogs has.
 struct MissingNames {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/compare/renames.h"
-#include "graph/engine/catalog_diff.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "versions/difference/catalog_diff.h"
 
 namespace cbc {
 
@@ -14,6 +14,14 @@ namespace cbc {
 
 /// The beginning of the name of an attribute that is a condition on a situation variable.
 inline constexpr std::string_view condition_prefix = "situation ";
+/// The same of a parameter of a task.
+inline constexpr std::string_view parameter_prefix = "parameter ";
+
+/// Zero stands for nothing in compiled catalogs.
+template <typename Number>
+[[nodiscard]] AttributeValue unless_zero(Number number) {
+  return number == 0 ? AttributeValue() : AttributeValue(number);
+}
 
 /// A catalog, and what its things are called in a comparison; both catalogs must outlive it.
 struct NamedCatalog {
@@ -45,5 +53,9 @@ struct Fact {
 
 /// In the order of names; none of exclusions.
 [[nodiscard]] std::vector<Fact> facts(const NamedCatalog& named, CatalogChange::Subject subject);
+
+/// Adds the differences between all that two catalogs say of a subject.
+void compare_facts(CatalogChange::Subject subject, const NamedCatalog& before,
+                   const NamedCatalog& after, std::vector<CatalogChange>& changes);
 
 }  // namespace cbc

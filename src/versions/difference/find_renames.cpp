@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "graph/engine/catalog_diff.h"
-#include "graph/engine/catalog_facts.h"
 #include "runtime/base/text.h"
+#include "versions/difference/catalog_diff.h"
+#include "versions/difference/catalog_facts.h"
 
 namespace cbc {
 namespace {

@@ -10,7 +10,8 @@
 #include "core/compare/renames.h"
 #include "runtime/compiled/compiled_catalog.h"
 
-/// What two catalogs do not have in common.
+/// What two catalogs do not have in common, as they are written: for pictures and tables of a
+/// difference, and for proofs that two catalogs answer alike, in which no event shows some of it.
 namespace cbc {
 
 /// What an attribute is set to: nothing, a boolean, a percentage, a time or a text.
@@ -102,6 +103,8 @@ struct FittingChange {
                                                          const CompiledCatalog& after,
                                                          const Renames& renames);
 
+/// "5 s"; "any" of an empty text, "none" of nothing.
+[[nodiscard]] std::string describe(const AttributeValue& value);
 /// An attribute of a difference in words: "timeout 5 s -> 10 s" if it has changed, "timeout 5 s" if
 /// only one catalog has it.
 [[nodiscard]] std::string describe(const CatalogChange& change, const AttributeChange& attribute);

@@ -1,4 +1,4 @@
-#include "graph/engine/catalog_facts.h"
+#include "versions/difference/catalog_facts.h"
 
 #include <algorithm>
 #include <utility>
@@ -6,14 +6,10 @@
 #include "core/catalog/allowed_values.h"
 #include "core/catalog/situation.h"
 #include "core/support/wording.h"
+#include "runtime/base/text.h"
 
 namespace cbc {
 namespace {
-
-template <typename Number>
-AttributeValue unless_zero(Number number) {
-  return number == 0 ? AttributeValue() : AttributeValue(number);
-}
 
 Attributes attributes_of_task(const CompiledCatalog& catalog, std::uint32_t index) {
   const CompiledTask& task = catalog.tasks[catalog.task_ids[index]];
@@ -24,7 +20,7 @@ Attributes attributes_of_task(const CompiledCatalog& catalog, std::uint32_t inde
       {"start_on_request", task.start_on_request != 0},
       {"timeout", unless_zero(task.timeout)}};
   for (Parameter& parameter : parameters_of(catalog, index)) {
-    std::string name = "parameter " + parameter.name;
+    std::string name = concat(parameter_prefix, parameter.name);
     attributes.push_back({std::move(name), describe_allowed(std::move(parameter))});
   }
   std::sort(attributes.begin(), attributes.end(),

@@ -6,10 +6,10 @@
 // A comparison of texts would show order, comments and layout, which mean nothing. An edit distance
 // between trees (K. Zhang and D. Shasha, "Simple fast algorithms for the editing distance between
 // trees and related problems", SIAM Journal on Computing 18 (1989)) could guess that something was
-// renamed. What counts for that here is its whole content instead (catalog_renames.cpp), which
+// renamed. What counts for that here is its whole content instead (find_renames.cpp), which
 // guesses nothing.
 
-#include "graph/engine/catalog_diff.h"
+#include "versions/difference/catalog_diff.h"
 
 #include <algorithm>
 #include <array>
@@ -21,13 +21,11 @@
 
 #include <fmt/format.h>
 
-#include "graph/engine/catalog_facts.h"
 #include "runtime/base/text.h"
+#include "versions/difference/catalog_facts.h"
 
 namespace cbc {
-namespace {
-
-std::string describe_value(const AttributeValue& value) {
+std::string describe(const AttributeValue& value) {
   if (const bool* const truth = std::get_if<bool>(&value)) return *truth ? "true" : "false";
   if (const Millionths* const degree = std::get_if<Millionths>(&value)) {
     return format_percent(*degree);
@@ -41,15 +39,12 @@ std::string describe_value(const AttributeValue& value) {
   return "none";
 }
 
-}  // namespace
-
 std::string describe(const CatalogChange& change, const AttributeChange& attribute) {
   const std::string name = printable(attribute.name);
   // A behavior that does not name a situation variable fits in any of its values.
   const auto value_of = [&](const AttributeValue& value) {
     const bool is_absent = std::holds_alternative<std::monostate>(value);
-    return is_absent && attribute.name.starts_with(condition_prefix) ? "any"
-                                                                     : describe_value(value);
+    return is_absent && attribute.name.starts_with(condition_prefix) ? "any" : describe(value);
   };
   const std::string before = value_of(attribute.before);
   const std::string after = value_of(attribute.after);
@@ -196,10 +191,12 @@ CatalogChange to_change(ChangeKind kind, ChangeSubject subject, const Fact& fact
   return change;
 }
 
-void compare_facts(ChangeSubject subject, const std::vector<Fact>& before,
-                   const std::vector<Fact>& after, std::vector<CatalogChange>& changes) {
+}  // namespace
+
+void compare_facts(ChangeSubject subject, const NamedCatalog& before, const NamedCatalog& after,
+                   std::vector<CatalogChange>& changes) {
   walk(
-      before, after, precedes,
+      facts(before, subject), facts(after, subject), precedes,
       [&](const Fact& old) {
         changes.push_back(
             to_change(ChangeKind::removed, subject, old, compare(old.attributes, {})));
@@ -213,8 +210,6 @@ void compare_facts(ChangeSubject subject, const std::vector<Fact>& before,
         changes.push_back(to_change(ChangeKind::changed, subject, now, std::move(attributes)));
       });
 }
-
-}  // namespace
 
 std::string_view name_of(ChangeKind kind) {
   constexpr std::array<std::string_view, 3> names{"removed", "added", "changed"};
@@ -247,7 +242,7 @@ CatalogDiff compare_catalogs(const CompiledCatalog& before, const CompiledCatalo
   for (const ChangeSubject subject :
        {ChangeSubject::task, ChangeSubject::behavior, ChangeSubject::performs,
         ChangeSubject::requirement, ChangeSubject::variable}) {
-    compare_facts(subject, facts(old_names, subject), facts(new_names, subject), diff.changes);
+    compare_facts(subject, old_names, new_names, diff.changes);
   }
   compare_exclusions(old_names, new_names, diff);
   return diff;
