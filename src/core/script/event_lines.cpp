@@ -101,7 +101,7 @@ std::optional<EventLog::Header> EventLog::read_header(std::string_view line) {
     }
     const std::string digest = text_of(*root, "digest", reporter);
     const std::string expected = to_hex(identity_of(catalog_));
-    if (reporter.errors() == 0 && digest != expected) {
+    if (reporter.errors() == 0 && !is_foreign_ && digest != expected) {
       error_ = "it was made with another catalog, with the digest " + quote(digest) + "; that of " +
                quote(catalog_.file) + " is " + expected +
                "; --replay LOG CATALOG compares what both decide";
@@ -116,7 +116,7 @@ std::optional<EventLog::Header> EventLog::read_header(std::string_view line) {
       header.timeouts = yaml::read_boolean(*timeouts, "timeouts", reporter).value_or(true);
     }
     if (const Node* const situation = require(*root, "situation", reporter)) {
-      header.situation = reader_.read_situation(*situation, reporter);
+      header.situation = reader_.read_situation(known_part(*situation), reporter);
     }
   }
   if (!is_good(reporter, diagnostics)) return std::nullopt;
@@ -139,6 +139,7 @@ std::optional<EventLog::Entry> EventLog::read_entry(std::string_view line, std::
 }
 
 const Node* EventLog::read_object(std::string_view line, std::uint32_t number, Reporter& reporter) {
+  line_ = number;
   const Node* const root = json_.read(line, number);
   if (root != nullptr && root->kind == yaml::Kind::mapping) return root;
   reporter.report(rule::wrong_type, {},
@@ -156,30 +157,89 @@ EventLog::Entry EventLog::read_event(const Node& event, Reporter& reporter) {
     const auto number = yaml::read_integer(*index, "index", 0, reporter);
     entry.index = static_cast<std::uint64_t>(number.value_or(0));
   }
-  if (text_of(event, "origin", reporter) == name_of(Origin::script)) {
-    entry.step = read_step(event, reporter);
+  const std::string word = text_of(event, "verb", reporter);
+  const std::optional<Verb> verb = find_word<Verb>(word);
+  if (!verb) {
+    reporter.report(rule::invalid_value, event.range, "there is no verb " + quote(word));
+    return entry;
+  }
+  const VerbForm& form = form_of(*verb);
+  entry.is_from_outside = text_of(event, "origin", reporter) == name_of(cbc::Origin::script);
+  if (is_foreign_) {
+    const Node* const name = event.find("name");
+    entry.what = name == nullptr ? word : concat(word, " ", printable(name->text));
+    if (form.is_decided && entry.is_from_outside) {
+      entry.outcome = find_word<Outcome>(text_of(event, "outcome", reporter));
+    }
+    if (const Node* const running = event.find("running")) {
+      for (const auto& [task, behavior] : running->entries) {
+        entry.running.emplace_back(task->text, behavior->text);
+      }
+    }
+    if (const std::string unknown = find_unknown(event, form);
+        entry.is_from_outside && !unknown.empty()) {
+      leave_out(concat(quote(catalog_.file), " has no ", unknown));
+      return entry;
+    }
+  }
+  if (entry.is_from_outside) {
+    entry.step = read_step(event, *verb, reporter);
     entry.step->range = event.range;
     entry.step->time = entry.time;
   }
   return entry;
 }
 
-Step EventLog::read_step(const Node& event, Reporter& reporter) {
+/// The task or behavior of the event that the catalog does not have, or nothing.
+std::string EventLog::find_unknown(const Node& event, const VerbForm& form) const {
+  using SubjectKind = VerbForm::SubjectKind;
+  const Node* const task = event.find(form.subject == SubjectKind::task ? "name" : "task");
+  if (task != nullptr && !catalog_.find_task(task->text)) return "task " + quote(task->text);
+  const Node* const behavior = form.subject == SubjectKind::behavior ? event.find("name") : nullptr;
+  if (behavior == nullptr || catalog_.find_behavior(behavior->text)) return {};
+  return "behavior " + quote(behavior->text);
+}
+
+bool EventLog::is_known(const std::string& key, const Node& value) const {
+  const auto variable = catalog_.find_variable(key);
+  if (!variable) return catalog_.find_behavior(key).has_value();
+  return catalog_.find_value(*variable, value.text).has_value();
+}
+
+/// A situation of a log without what the catalog lacks.
+Node EventLog::known_part(const Node& situation) {
+  Node known = situation;
+  if (!is_foreign_) return known;
+  std::erase_if(known.entries, [&](const auto& entry) {
+    const auto& [key, value] = entry;
+    if (is_known(key->text, *value)) return false;
+    const std::string shown = value->plain ? value->text : concat('"', value->text, '"');
+    leave_out(concat(quote(catalog_.file), " has no situation ", printable(key->text), ": ",
+                     printable(shown)));
+    return true;
+  });
+  return known;
+}
+
+void EventLog::leave_out(const std::string& what) {
+  left_out_.push_back(concat("line ", line_, ": ", what));
+}
+
+Step EventLog::read_step(const Node& event, Verb verb, Reporter& reporter) {
   Step step;
-  const std::string name = text_of(event, "verb", reporter);
-  const std::optional<Verb> verb = find_word<Verb>(name);
-  if (!verb) {
-    reporter.report(rule::invalid_value, event.range, "there is no verb " + quote(name));
-    return step;
-  }
-  const VerbForm& form = form_of(*verb);
+  const VerbForm& form = form_of(verb);
   EventParts parts;
-  parts.verb = *verb;
+  parts.verb = verb;
   if (form.subject != VerbForm::SubjectKind::nothing) {
     const bool is_name = form.subject != VerbForm::SubjectKind::situation;
     parts.subject_key = is_name ? "name" : "situation";
     parts.task = event.find("task");
     if (parts.task == nullptr) parts.subject = require(event, parts.subject_key, reporter);
+  }
+  Node situation;
+  if (form.subject == VerbForm::SubjectKind::situation && parts.subject != nullptr) {
+    situation = known_part(*parts.subject);
+    parts.subject = &situation;
   }
   if (form.has_priority) parts.priority = require(event, "priority", reporter);
   if (form.has_parameters) parts.parameters = event.find("parameters");

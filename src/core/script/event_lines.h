@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
@@ -11,6 +12,7 @@
 #include "core/script/script.h"
 #include "core/yaml/document.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
 
 namespace cbc {
@@ -62,15 +64,21 @@ class EventLog {
     Situation situation;  ///< with the values of all variables
   };
   struct Entry {
-    bool is_event = false;     ///< false: the answer to a line that was not an event
-    std::uint64_t index = 0;   ///< of an event: how many there are up to it
-    Microseconds time = 0;     ///< of an event
-    std::optional<Step> step;  ///< of an event of origin script
+    bool is_event = false;         ///< false: the answer to a line that was not an event
+    std::uint64_t index = 0;       ///< of an event: how many there are up to it
+    Microseconds time = 0;         ///< of an event
+    bool is_from_outside = false;  ///< of origin script
+    std::optional<Step> step;      ///< of such an event, unless it is left out
+    std::string what;              ///< "start LAND"
+    std::optional<Outcome> outcome;
+    std::vector<std::pair<std::string, std::string>> running;  ///< tasks with their behaviors
   };
+  /// Which catalog the log was made with: this one, or any; what this one lacks is then left out.
+  enum class Origin : std::uint8_t { same, any };
 
   /// The catalog must outlive this object.
-  explicit EventLog(const CompiledCatalog& catalog)
-      : catalog_(catalog), reader_(catalog, Severity::note) {
+  explicit EventLog(const CompiledCatalog& catalog, Origin origin = Origin::same)
+      : catalog_(catalog), reader_(catalog, Severity::note), is_foreign_(origin == Origin::any) {
     reader_.stop_checking_parameters();
   }
 
@@ -78,18 +86,27 @@ class EventLog {
   [[nodiscard]] std::optional<Header> read_header(std::string_view line);
   [[nodiscard]] std::optional<Entry> read_entry(std::string_view line, std::uint32_t number);
   [[nodiscard]] const std::string& error() const { return error_; }
+  /// What the catalog lacks, each in words with its line.
+  [[nodiscard]] const std::vector<std::string>& left_out() const { return left_out_; }
 
  private:
   [[nodiscard]] const yaml::Node* read_object(std::string_view line, std::uint32_t number,
                                               Reporter& reporter);
+  [[nodiscard]] bool is_known(const std::string& key, const yaml::Node& value) const;
+  [[nodiscard]] yaml::Node known_part(const yaml::Node& situation);
+  [[nodiscard]] std::string find_unknown(const yaml::Node& event, const VerbForm& form) const;
+  void leave_out(const std::string& what);
   [[nodiscard]] Entry read_event(const yaml::Node& event, Reporter& reporter);
-  [[nodiscard]] Step read_step(const yaml::Node& event, Reporter& reporter);
+  [[nodiscard]] Step read_step(const yaml::Node& event, Verb verb, Reporter& reporter);
   [[nodiscard]] bool is_good(const Reporter& reporter, const Diagnostics& diagnostics);
 
   const CompiledCatalog& catalog_;
   StepReader reader_;
   yaml::JsonReader json_;
   std::string error_;
+  const bool is_foreign_;
+  std::uint32_t line_ = 0;
+  std::vector<std::string> left_out_;
 };
 
 }  // namespace cbc

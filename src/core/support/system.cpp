@@ -284,7 +284,7 @@ std::string end_of(int status) {
 Filtered run_filter(const std::vector<std::string>& command, std::string_view input,
                     const std::function<bool()>& is_stopped, std::string_view second_input) {
   // Files in memory, of which neither side waits for the other.
-  const auto fail = [] { return Filtered{true, false, {}, reason()}; };
+  const auto fail = [] { return Filtered{true, false, {}, reason(), -1}; };
   std::array<Descriptor, stream_count> streams;
   for (Descriptor& stream : streams) {
     stream.set(memfd_create("stream", MFD_CLOEXEC));
@@ -295,7 +295,7 @@ Filtered run_filter(const std::vector<std::string>& command, std::string_view in
   if (!write_all(streams[second_input_number].number(), second_input)) return fail();
   pid_t process = 0;
   if (const int error = start(command, streams, process); error != 0) {
-    return {false, false, {}, reason(error)};
+    return {false, false, {}, reason(error), -1};
   }
   int status = 0;
   bool is_killed = false;

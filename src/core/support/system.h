@@ -41,9 +41,9 @@ namespace cbc {
 struct Filtered {
   bool is_found = false;     ///< nothing says that the program could not be started
   bool is_done = false;      ///< it ended with exit status 0
-  int status = -1;           ///< its exit status, if it had one
   std::string output;        ///< its standard output
   std::string error_output;  ///< its standard error, or why it could not be run, or how it ended
+  int status = -1;           ///< its exit status, if it had one
 };
 
 /// Where a filter reads a second text.

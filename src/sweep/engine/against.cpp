@@ -17,6 +17,7 @@
 #include "core/script/runner.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
+#include "versions/runs/run_comparison.h"
 
 namespace cbc {
 namespace {
@@ -149,9 +150,9 @@ void SequenceComparison::compare_part(std::uint32_t part, const State& new_state
     const CompiledCatalog& now = catalogs_.new_catalog;
     const CompiledCatalog& before = catalogs_.old_catalog;
     add(part,
-        fmt::format("{}: {}", printable(now.name_of_task(task.of_new)),
-                    in_place_of(ours != none ? now.name_of_behavior(ours) : "",
-                                theirs != none ? before.name_of_behavior(theirs) : "")),
+        task_in_place_of(now.name_of_task(task.of_new),
+                         ours != none ? now.name_of_behavior(ours) : "",
+                         theirs != none ? before.name_of_behavior(theirs) : ""),
         new_state);
     differs = true;
   }

@@ -11,6 +11,7 @@
 #include "core/words/words.h"
 #include "runtime/base/text.h"
 #include "tune/report/tune_report.h"
+#include "versions/runs/run_comparison.h"
 
 namespace cbc {
 namespace {
@@ -42,13 +43,13 @@ std::string describe_instead(const TuneResult& result, const RunDifference& diff
     parts.push_back(in_place_of(name_of(now.outcome), name_of(before.outcome)));
   }
   const auto name = [&](BehaviorId behavior) {
-    return behavior == none ? std::string() : behavior_name(result.catalog, behavior);
+    return behavior == none ? std::string_view() : result.catalog.name_of_behavior(behavior);
   };
   constexpr std::size_t most_shown = 3;
   const std::size_t shown = std::min(difference.moves.size(), most_shown);
   for (const ValueChange& move : std::span(difference.moves).first(shown)) {
-    parts.push_back(task_name(result.catalog, move.task) + ": " +
-                    in_place_of(name(move.now), name(move.before)));
+    parts.push_back(task_in_place_of(result.catalog.name_of_task(move.task), name(move.now),
+                                     name(move.before)));
   }
   if (parts.empty()) return "other changes on the way to the same";
   const std::size_t others = difference.moves.size() - shown;
