@@ -155,12 +155,6 @@ struct Part {
     members.put_property(json, definitions);
   }
   void put_required(JsonWriter& json) const { members.put_required(json); }
-  template <typename Object>
-  void read(const auto& json, Object& object, const auto& context) const {
-    if constexpr (std::is_lvalue_reference_v<decltype(project(projection, object, context))>) {
-      members.read(json, project(projection, object, context), context);
-    }
-  }
 };
 template <typename Projection, typename Members>
 [[nodiscard]] constexpr Part<Projection, Members> part(Projection projection, Members members) {
@@ -324,25 +318,6 @@ struct Union {
     std::apply([&](const auto&... variant) { (write_variant(variant) || ...); }, variants);
     tail.write(json, value, context);
     json.close('}');
-  }
-  template <typename Value>
-  void read(const auto& json, Value& value, const auto& context) const {
-    const auto part = json[key];
-    const std::string word = part.text();
-    const auto read_variant = [&](const auto& variant) {
-      for (const auto kind : variant.kinds) {
-        if (name_of(kind) != word) continue;
-        project(kind_of, value, context) = kind;
-        variant.members.read(json, value, context);
-        return true;
-      }
-      return false;
-    };
-    const bool is_known = std::apply(
-        [&](const auto&... variant) { return (read_variant(variant) || ...); }, variants);
-    if (!is_known) part.refuse_word(word);
-    head.read(json, value, context);
-    tail.read(json, value, context);
   }
   void put_schema(JsonWriter& json, Definitions& definitions) const {
     definitions.add(name, [&](JsonWriter& part) { put_definition(part, definitions); });
