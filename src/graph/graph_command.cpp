@@ -25,7 +25,6 @@
 #include "core/script/runner.h"
 #include "core/support/system.h"
 #include "core/support/wording.h"
-#include "versions/difference/catalog_diff.h"
 #include "graph/engine/catalog_graph.h"
 #include "graph/engine/diagram.h"
 #include "graph/engine/state_recorder.h"
@@ -33,6 +32,7 @@
 #include "graph/report/tables.h"
 #include "runtime/base/text.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "versions/difference/catalog_diff.h"
 
 namespace cbc::cli {
 namespace {

@@ -62,7 +62,7 @@ int report_unreadable(const std::vector<Diagnostic>& findings, const TuneOptions
 
 TuneResult begin_result(const CheckedCatalog& source, const std::vector<TunableNumber>& numbers,
                         const Recording& present, const TuneOptions& options) {
-  TuneResult result{source.reading.catalog, *source.compiled, numbers, present, {}, {}, {}, {}, {}};
+  TuneResult result{source.reading.catalog, *source.compiled, numbers, present, {}, {}, {}, {}};
   if (!options.fail_under.empty()) result.fail_under = degree_of(options.fail_under);
   return result;
 }

@@ -16,7 +16,6 @@
 #include "core/compile/compile.h"
 #include "core/script/runner.h"
 #include "core/yaml/document.h"
-#include "versions/difference/catalog_diff.h"
 #include "graph/engine/catalog_graph.h"
 #include "graph/engine/diagram.h"
 #include "graph/engine/state_recorder.h"
@@ -25,6 +24,7 @@
 #include "support/read_file.h"
 #include "support/sessions.h"
 #include "support/shared_folder.h"
+#include "versions/difference/catalog_diff.h"
 
 namespace cbc::graph_test {
 namespace {

@@ -15,10 +15,10 @@
 #include "compiled_text.h"
 #include "environment.h"
 #include "generator.h"
-#include "versions/difference/catalog_diff.h"
 #include "graph/engine/catalog_graph.h"
 #include "random.h"
 #include "support/rounds.h"
+#include "versions/difference/catalog_diff.h"
 #include "yaml_text.h"
 
 namespace cbc::oracle::diff_test {

@@ -202,9 +202,7 @@ TEST_P(EveryRule, HasAnExampleThatIsMended) {
 
 TEST_P(EveryRule, IsCheckedWithoutSearchIfItNeedsNone) {
   if (rule().is_of_scripts || rule().name == rule::undecided) return;
-  const bool is_found =
-      !rules_found(rule(), rule().example, {.depth = CheckDepth::rules})
-           .empty();
+  const bool is_found = !rules_found(rule(), rule().example, {.depth = CheckDepth::rules}).empty();
   // Of unused-allow the search decides whether a comment is used.
   EXPECT_EQ(is_found, !rule().needs_search);
 }

@@ -41,8 +41,8 @@ std::size_t Diagnostics::count(Severity severity) const {
 
 void Reporter::report(const Rule& rule, const Range& range, std::string message,
                       std::vector<Note> notes, std::vector<Edit> edits) {
-  report_as({rule.severity, rule.is_fixed}, rule, range, std::move(message),
-            std::move(notes), std::move(edits));
+  report_as({rule.severity, rule.is_fixed}, rule, range, std::move(message), std::move(notes),
+            std::move(edits));
 }
 
 void Reporter::report_as(const Standing& standing, const Rule& rule, const Range& range,

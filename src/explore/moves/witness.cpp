@@ -18,11 +18,11 @@
 
 #include <fmt/format.h>
 
-#include "core/compare/translation.h"
 #include "core/script/script.h"
 #include "explore/model/model.h"
 #include "explore/moves/stepper.h"
 #include "runtime/base/text.h"
+#include "versions/names/translation.h"
 
 namespace cbc {
 

@@ -11,8 +11,8 @@
 #include "core/catalog/situation.h"
 #include "core/compile/compile.h"
 #include "core/diagnostic/diagnostic.h"
-#include "versions/difference/catalog_diff.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "versions/difference/catalog_diff.h"
 
 /// A catalog as a graph: what pictures of it are drawn from, with marks for what stands out (a
 /// state, or the differences between two catalogs).

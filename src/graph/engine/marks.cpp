@@ -10,9 +10,9 @@
 #include <variant>
 #include <vector>
 
-#include "versions/difference/catalog_diff.h"
 #include "graph/engine/catalog_graph.h"
 #include "runtime/base/text.h"
+#include "versions/difference/catalog_diff.h"
 
 namespace cbc::draw {
 namespace {

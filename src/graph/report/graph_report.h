@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "core/diagnostic/diagnostic.h"
-#include "versions/difference/catalog_diff.h"
 #include "graph/engine/catalog_graph.h"
 #include "graph/engine/diagram.h"
+#include "versions/difference/catalog_diff.h"
 
 // Pictures of catalogs, and the differences of two.
 

@@ -149,8 +149,7 @@ void write_rule(JsonWriter& json, const Rule& rule) {
   json.write_object("fullDescription", {{"text", rule.explanation}});
   json.write_object("help",
                     {{"text", rule_text(rule, plain_style())}, {"markdown", rule_markdown(rule)}});
-  json.write_object("defaultConfiguration",
-                    {{"level", name_of(rule.severity)}});
+  json.write_object("defaultConfiguration", {{"level", name_of(rule.severity)}});
   json.open("properties", '{');
   json.write_list("tags", std::array{rule.is_of_scripts ? "event-script" : "catalog"});
   json.close('}');

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "core/compare/translation.h"
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
 #include "sweep/engine/draw.h"
+#include "versions/names/translation.h"
 
 namespace cbc {
 

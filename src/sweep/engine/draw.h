@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "cbc/units.h"
-#include "core/compare/translation.h"
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/state.h"
+#include "versions/names/translation.h"
 
 namespace cbc {
 

@@ -45,6 +45,9 @@ struct SweepResult {
   std::optional<SweptComparison> against;  ///< with an older version
 };
 
+/// The largest number that JSON has of them.
+inline constexpr std::uint64_t largest_count = std::uint64_t{1} << 53U;
+
 /// The first sequence that ended early.
 struct SweepFailure {
   std::uint64_t sequence = 0;  ///< counts from 1

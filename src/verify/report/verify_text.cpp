@@ -165,10 +165,9 @@ class GroupText {
   void add_group(const Exploration& exploration) {
     text_.title(fmt::format("group {}", exploration.groups.front()));
     add_row("tasks", names_of(tasks_of(exploration)));
-    add_row(
-        "explored",
-        {quantity(exploration.states, "state"), quantity(exploration.transitions, "transition"),
-         fmt::format("depth {}", exploration.depth)});
+    add_row("explored",
+            {quantity(exploration.states, "state"), quantity(exploration.transitions, "transition"),
+             fmt::format("depth {}", exploration.depth)});
     if (!exploration.complete) {
       const Table table(text_.style(), row_columns(), {.columns = text_width});
       text_.add(

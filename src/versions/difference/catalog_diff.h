@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cbc/units.h"
-#include "core/compare/renames.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "versions/names/renames.h"
 
 /// What two catalogs do not have in common, as they are written: for pictures and tables of a
 /// difference, and for proofs that two catalogs answer alike, in which no event shows some of it.

@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/compare/renames.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "versions/difference/catalog_diff.h"
+#include "versions/names/renames.h"
 
 namespace cbc {
 

@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/compare/translation.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 #include "versions/difference/catalog_diff.h"
 #include "versions/difference/catalog_facts.h"
+#include "versions/names/translation.h"
 
 namespace cbc {
 namespace {

@@ -18,7 +18,6 @@
 
 #include <fmt/format.h>
 
-#include "core/compare/translation.h"
 #include "core/support/wording.h"
 #include "explore/moves/stepper.h"
 #include "explore/space/first_states.h"
@@ -29,6 +28,7 @@
 #include "versions/lockstep/same_as_answers.h"
 #include "versions/lockstep/same_as_direct.h"
 #include "versions/lockstep/same_as_pair.h"
+#include "versions/names/translation.h"
 
 namespace cbc {
 

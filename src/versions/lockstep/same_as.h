@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "core/compare/translation.h"
 #include "core/property/properties.h"
 #include "explore/moves/witness.h"
 #include "explore/properties/explore.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "versions/names/translation.h"
 
 namespace cbc {
 

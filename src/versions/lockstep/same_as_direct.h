@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "core/compare/translation.h"
 #include "core/property/properties.h"
 #include "explore/properties/explore.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "versions/lockstep/same_as.h"
+#include "versions/names/translation.h"
 
 namespace cbc {
 

@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/compare/translation.h"
 #include "core/property/properties.h"
 #include "explore/model/model.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "versions/names/translation.h"
 
 namespace cbc {
 

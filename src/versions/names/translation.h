@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/compare/renames.h"
 #include "core/property/properties.h"
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "versions/names/renames.h"
 
 namespace cbc {
 

@@ -1,4 +1,4 @@
-#include "core/compare/translation.h"
+#include "versions/names/translation.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "core/compare/renames.h"
+#include "versions/names/renames.h"
 
 #include <cstddef>
 #include <string>
