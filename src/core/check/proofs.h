@@ -34,7 +34,6 @@ class ProofContext;
 /// they require, in no situation.
 void check_situations(ProofContext& proof);
 
-
 /// The checks about tasks that run at the same time. `is_complete`: all of the catalog was
 /// understood.
 void check_together(ProofContext& proof, const LintOptions& options, bool is_complete);
