@@ -208,7 +208,6 @@ std::string stream_page(const CompiledCatalog& catalog, const StreamOfPage& stre
   json.write_json("successes", "[]");
   json.write_json("failures", "[]");
   json.close('}');
-  if (!stream.error.empty()) json.write("error", stream.error);
   json.close('}');
   json.close(']');
   json.close('}');

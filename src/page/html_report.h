@@ -93,7 +93,6 @@ struct StreamOfPage {
   std::string begin;           ///< the state before it, see state_of_page()
   std::string events;          ///< as in cbc.events/1, separated by commas
   std::uint64_t left_out = 0;  ///< events after these, which do not fit on a page
-  std::string error;           ///< why it ended early, or empty
   /// If it is not empty, the page gets further events from "events?run=TOKEN", relative to itself.
   std::string token;
 };

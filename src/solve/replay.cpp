@@ -18,6 +18,7 @@
 #include "core/files/missions.h"
 #include "core/files/output.h"
 #include "core/files/read.h"
+#include "core/report/event_json.h"
 #include "core/report/table.h"
 #include "core/script/event_lines.h"
 #include "core/script/log_script.h"
@@ -26,6 +27,7 @@
 #include "core/support/wording.h"
 #include "core/words/layout.h"
 #include "core/words/words.h"
+#include "page/html_report.h"
 #include "runtime/base/text.h"
 #include "runtime/coordinator/state.h"
 #include "solve/solve.h"
@@ -41,7 +43,9 @@ class Replay {
         catalog_(catalog),
         name_(display_name(*options.stream.replay)),
         log_(catalog, EventLog::Origin::any),
-        answers_(catalog) {}
+        answers_(catalog) {
+    page_.name = name_;
+  }
 
   /// `state`: which the log continues from.
   int run(std::string_view text, const std::optional<Snapshot>& state) {
@@ -51,20 +55,39 @@ class Replay {
     CoordinatorOptions of_coordinator = coordinator_options(options_);
     of_coordinator.reactive_delay = header->reactive_delay;
     of_coordinator.timeouts = header->timeouts;
-    Runner runner(catalog_, of_coordinator, answers_);
+    EventStream stream(
+        catalog_, {}, [this](const EventStream::Line& line) { take(line); }, [](const Failure&) {});
+    Runner runner(catalog_, of_coordinator, stream,
+                  options_.html ? questions_of(options_, catalog_) : Questions());
     if (state) {
       runner.resume(*state);
       events_before_ = state->events;
     } else {
       runner.begin(header->situation);
     }
+    const Coordinator& coordinator = runner.coordinator();
+    page_.begin = state_of_page(catalog_, events_before_, coordinator.now(), coordinator.state());
     if (const int status = run_steps(text, runner); status != exit_ok) return status;
     if (const int status = report_end(runner, of_coordinator); status != exit_ok) return status;
     fmt::print("{}", report(header->catalog));
-    return comparison_.lines().empty() && log_.left_out().empty() ? exit_ok : exit_no;
+    const int status = comparison_.lines().empty() && log_.left_out().empty() ? exit_ok : exit_no;
+    return options_.html ? std::max(status, draw()) : status;
   }
 
  private:
+  void take(const EventStream::Line& line) {
+    answers_.on_event(line.record, line.step, line.state);
+    if (!options_.html) return;
+    if (page_.events.size() >= HtmlReport::most_data) {
+      ++page_.left_out;
+    } else {
+      page_.events.append(page_.events.empty() ? "" : ",").append(line.text);
+    }
+  }
+  int draw() const {
+    tell_left_out(*options_.html, page_.left_out);
+    return write_output(*options_.html, stream_page(catalog_, page_));
+  }
   /// Runs each event from outside after comparing what came before it.
   int run_steps(std::string_view text, Runner& runner) {
     for (std::uint32_t number = 2; !text.empty(); ++number) {
@@ -144,6 +167,7 @@ class Replay {
   const std::string name_;
   EventLog log_;
   AnswerCollector answers_;
+  StreamOfPage page_;  ///< of the replay, if there is to be one
   RunComparison comparison_;
   std::vector<RunAnswer> logged_;  ///< since the last event from outside, and of that
   Microseconds last_ = 0;

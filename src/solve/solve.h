@@ -63,6 +63,9 @@ struct SolveOptions {
 /// The optional members of events in JSON.
 [[nodiscard]] EventAdditions event_additions(const SolveOptions& options);
 
+/// Says that a page lacks the last events, if it lacks any.
+void tell_left_out(const std::string& page, std::uint64_t events);
+
 // The beginning and the end of streams and replays. Problems go to standard error.
 
 /// Whether the file of --state-out, if the option is given, can be written. All has been read.

@@ -154,7 +154,7 @@ void add_stream_options(Command& command, StreamOptions& options) {
   command
       .option("--replay", options.replay, input("LOG", ValueKind::file),
               "Run the events of a jsonl output again, and compare")
-      .not_with({"--html", "--why", "--alternatives", "--brief", "--stats", "--what-if", "--jobs"},
+      .not_with({"--why", "--alternatives", "--brief", "--stats", "--what-if", "--jobs"},
                 "it reports differences alone; without '--replay', a log runs as a script")
       .only_with_values("--format", {"text"});
   command

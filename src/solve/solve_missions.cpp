@@ -181,10 +181,7 @@ int draw_missions(const std::vector<Mission>& missions, const SolveOptions& opti
   }
   ReportPair both(report, picture);
   const int status = run_missions(missions, options, both);
-  if (const std::uint64_t events = picture.left_out(); events > 0) {
-    complain("the page {} leaves out the last {}: it holds at most {} MiB of them",
-             quote(*options.html), quantity(events, "event"), HtmlReport::most_data >> 20U);
-  }
+  tell_left_out(*options.html, picture.left_out());
   return std::max(status, write_output(*options.html, picture.page()));
 }
 
@@ -196,6 +193,12 @@ bool know_names(const std::vector<Mission>& missions, const ExplainOptions& opti
 }
 
 }  // namespace
+
+void tell_left_out(const std::string& page, std::uint64_t events) {
+  if (events == 0) return;
+  complain("the page {} leaves out the last {}: it holds at most {} MiB of them", quote(page),
+           quantity(events, "event"), HtmlReport::most_data >> 20U);
+}
 
 int solve_missions(const SolveOptions& options) {
   const SolveFormat& format = *find_named(solve_formats(), options.format);

@@ -85,7 +85,7 @@ std::unique_ptr<LivePage> LivePage::open(const CompiledCatalog& catalog, std::st
   // Tells this run from those that another process serves at the same address.
   const std::string token = serve::make_token();
   serve::Server::Site site;
-  site.page = [page = stream_page(catalog, {std::move(name), begin, "", 0, "", token})] {
+  site.page = [page = stream_page(catalog, {std::move(name), begin, "", 0, token})] {
     return page;
   };
   site.history = &live->history_;

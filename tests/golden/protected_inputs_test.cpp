@@ -95,13 +95,21 @@ TEST_F(ProtectedInputs, AreNamedAsTheyWereRead) {
                 "'.cbc.yaml', which was read\n");
 }
 
-TEST_F(ProtectedInputs, AreNotStatesThatTheNextOneReplaces) {
+/// A state may be replaced by the next one, and by nothing else.
+TEST_F(ProtectedInputs, AreStatesThatAStreamContinues) {
   const CommandLine stream{"solve", "robot.cbc", "missions/mission.yaml", "--format", "jsonl"};
   CommandLine first = stream;
   first.insert(first.end(), {"--state-out", "state.json"});
   EXPECT_EQ(cbc(first).status, 0);
   CommandLine second = stream;
-  second.insert(second.end(), {"--state-in", "state.json", "--state-out", "state.json"});
+  second.insert(second.end(), {"--state-in", "state.json"});
+  const Result log = cbc(second);
+  EXPECT_EQ(log.status, 0) << log.err;
+  folder.write("second.jsonl", log.out);
+  expect_protected(
+      {"solve", "--replay", "second.jsonl", "robot.cbc", "--state-in", "state.json", "--html"},
+      "state.json");
+  second.insert(second.end(), {"--state-out", "state.json"});
   EXPECT_EQ(cbc(second).status, 0);
 }
 

@@ -215,6 +215,36 @@ TEST_F(StreamTest, LogsAreScripts) {
   EXPECT_EQ(again.out, folder_.read("log.jsonl"));
 }
 
+TEST_F(StreamTest, ReplayDrawsWhatItsCatalogDecides) {
+  const auto run_of_page = [this](const std::string& log, std::vector<std::string> more = {}) {
+    folder_.write("log.jsonl", log);
+    more.insert(more.begin(), {"--replay", "log.jsonl", "quadrotor.yaml", "--html", "page.html"});
+    const Result result = run(call(std::move(more)));
+    EXPECT_EQ(result.status, 0) << result.err << result.out;
+    const json page = data_of_page(folder_.read("page.html"));
+    return std::pair(page["report"]["runs"][0]["events"], page["runs"][0]["state"]);
+  };
+  const auto events_of = [](const std::string& log) {
+    json all = json::array();
+    for (const std::string& line : lines_of(log)) {
+      if (json::parse(line).contains("index")) all.push_back(json::parse(line));
+    }
+    return all;
+  };
+  const std::string events = many_events(60);
+  const std::string log = feed(events).out;
+  const auto [drawn, begin] = run_of_page(log);
+  EXPECT_EQ(drawn, events_of(log));
+  EXPECT_EQ(begin["index"], 0);
+
+  folder_.write("first", many_events(40));
+  EXPECT_EQ(run_in_shell("--state-out state < first > out 2> err"), 0);
+  const std::string second = feed(events, {"--state-in", "state"}).out;
+  const auto [drawn_later, state] = run_of_page(second, {"--state-in", "state"});
+  EXPECT_EQ(drawn_later, events_of(second));
+  EXPECT_EQ(state["index"], json::parse(folder_.read("state"))["events"]);
+}
+
 /// It names its catalog, wherever it is written.
 TEST_F(StreamTest, ScriptsOfLogsRunInOtherFolders) {
   folder_.write("log.jsonl", feed("{start: FOLLOW_PATH}\n").out);
