@@ -10,7 +10,7 @@ endif()
 
 set(library_headers "${CMAKE_CURRENT_BINARY_DIR}/library_headers")
 file(MAKE_DIRECTORY "${library_headers}")
-foreach(header boost flatbuffers fmt nlohmann xxhash.h)
+foreach(header boost CLI flatbuffers fmt nlohmann xxhash.h)
   if(NOT EXISTS "/usr/include/${header}")
     message(FATAL_ERROR "/usr/include/${header} is missing")
   endif()
@@ -18,7 +18,7 @@ foreach(header boost flatbuffers fmt nlohmann xxhash.h)
 endforeach()
 set(xxhash_include "${library_headers}")
 
-foreach(library Boost::headers flatbuffers::flatbuffers fmt::fmt-header-only nlohmann_json::nlohmann_json
+foreach(library Boost::headers CLI11::CLI11 flatbuffers::flatbuffers fmt::fmt-header-only nlohmann_json::nlohmann_json
                 Threads::Threads)
   add_library(${library} INTERFACE IMPORTED)
   target_include_directories(${library} SYSTEM INTERFACE "${library_headers}")

@@ -19,7 +19,7 @@ PACKAGE = {"SPDXID", "name", "versionInfo", "supplier", "downloadLocation", "fil
 MORE = {"checksums", "comment", "externalRefs", "homepage", "primaryPackagePurpose", "sourceInfo"}
 LICENSE = re.compile(r"NOASSERTION|[A-Za-z0-9.-]+( WITH [A-Za-z0-9.-]+)?")
 # Libraries that come as headers, and a name in the package of Debian that has them.
-HEADERS = {"boost/": "boost", "flatbuffers/": "libflatbuffers-dev", "fmt/": "libfmt-dev",
+HEADERS = {"CLI/": "libcli11-dev", "boost/": "boost", "flatbuffers/": "libflatbuffers-dev", "fmt/": "libfmt-dev",
            "nlohmann/": "nlohmann-json3-dev", "xxhash.h": "libxxhash-dev", "yaml-cpp/": "libyaml-cpp-dev"}
 
 

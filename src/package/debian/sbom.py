@@ -21,6 +21,7 @@ import time
 # Licenses by names of Debian's source packages; NOASSERTION for others.
 LICENSES = {
     "boost1.74": "BSL-1.0",
+    "cli11": "BSD-3-Clause",
     "flatbuffers": "Apache-2.0",
     "fmtlib": "MIT",
     "gcc-12": "GPL-3.0-or-later WITH GCC-exception-3.1",

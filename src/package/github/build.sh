@@ -5,7 +5,7 @@ set -euo pipefail
 source=$(realpath -- "$(dirname -- "${BASH_SOURCE[0]}")/../../..")
 sudo apt-get -qq update
 sudo apt-get -qq install -y --no-install-recommends \
-  cmake flatbuffers-compiler flatbuffers-compiler-dev g++ ninja-build libboost-dev \
+  cmake flatbuffers-compiler flatbuffers-compiler-dev g++ ninja-build libboost-dev libcli11-dev \
   libflatbuffers-dev libfmt-dev libxxhash-dev libyaml-cpp-dev nlohmann-json3-dev
 cmake -S "$source" -B "$RUNNER_TEMP/cbc" -G Ninja \
   -D CBC_BUILD_BENCHMARKS=OFF -D CBC_BUILD_TESTS=OFF

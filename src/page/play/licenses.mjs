@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import path from 'node:path';
 
 // Debian's packages of what is compiled into the program. That of Boost demands nothing for compiled code.
-const debianPackages = ['emscripten', 'libflatbuffers-dev', 'libfmt-dev', 'libxxhash-dev', 'libyaml-cpp-dev'];
+const debianPackages = ['emscripten', 'libcli11-dev', 'libflatbuffers-dev', 'libfmt-dev', 'libxxhash-dev', 'libyaml-cpp-dev'];
 
 const rule = '-'.repeat(78);
 
