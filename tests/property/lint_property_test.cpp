@@ -62,7 +62,7 @@ const LowerBound lint_lower_bounds[] = {
     {"redundant-requirement: reason of 2", 90},
     {"redundant-requirement: reason of 3", 50},
     {"redundant-requirement: reason of 4", 15},
-    {"redundant-requirement: reason of 5 or more", 4},
+    {"redundant-requirement: reason of 5 or more", 2},
     {"redundant-requirement: repeated", 120},
     {"requires-on-request", 350},
     {"requires-on-request: more than one request", 90},
