@@ -12,8 +12,11 @@ namespace {
 
 /// What one more case costs, in decisions of the solver.
 constexpr std::uint64_t effort_of_case = 500'000;
+/// What each part of a formula costs.
+constexpr std::uint64_t effort_of_part = 10;
 /// More cases would take too long to find a conflict in.
 constexpr std::size_t most_cases_of_conflict = 200;
+constexpr std::size_t most_constraints_of_conflict = 2'000;
 
 template <typename List, typename Item>
 bool is_listed(const List& list, Item item) {
@@ -71,41 +74,42 @@ Formula FormulaMaker::available(BehaviorId behavior, bool holds) const {
   return formula;
 }
 
-StateAsk::StateAsk(const CompiledCatalog& catalog, const PossibleStates& limits,
+StateAsk::StateAsk(const CompiledCatalog& catalog, const PossibleStates& possible,
                    std::uint64_t effort)
     : catalog_(catalog),
-      limits_(limits),
-      space_(catalog, limits_.constant, {}),
+      possible_(possible),
+      space_(catalog, possible_.constant, {}),
       search_(catalog, 0, Effort(effort)) {}
 
-Feasibility StateAsk::find(const Formula& formula) {
-  return go_through(
-      formula, [this](const SituationSpace& space, const Asked& question, const ValueSets& values) {
-        return Ask(search_, space).find(question, values);
-      });
+Feasibility StateAsk::find(const Formulas& formulas) {
+  return go_through(formulas, [this](const SituationSpace& space, const Asked& question,
+                                     const ValueSets& values) {
+    return Ask(search_, space).find(question, values);
+  });
 }
 
-Feasibility StateAsk::find_under(const Formula& formula, const Counts& counts) {
+Feasibility StateAsk::find_under(const Formulas& formulas, const Counts& counts) {
   RelaxedQuestions questions(space_, search_.effort());
   std::vector<Reason> constraints;
   std::deque<SituationSpace> spaces;
-  if (!collect(formula, counts, questions, constraints, spaces)) return Feasibility::unknown;
+  if (!collect(formulas, counts, questions, constraints, spaces)) return Feasibility::unknown;
   return questions.solve(constraints);
 }
 
-std::vector<Reason> StateAsk::conflict(const Formula& formula, const Counts& counts) {
+std::vector<Reason> StateAsk::conflict(const Formulas& formulas, const Counts& counts) {
   RelaxedQuestions questions(space_, search_.effort());
   std::vector<Reason> constraints;
   std::deque<SituationSpace> spaces;
-  if (!collect(formula, counts, questions, constraints, spaces)) return {};
+  if (!collect(formulas, counts, questions, constraints, spaces)) return {};
+  if (constraints.size() > most_constraints_of_conflict) return {};
   return questions.conflict(constraints);
 }
 
 /// All cases as questions. False if there are too many.
-bool StateAsk::collect(const Formula& formula, const Counts& counts, RelaxedQuestions& questions,
+bool StateAsk::collect(const Formulas& formulas, const Counts& counts, RelaxedQuestions& questions,
                        std::vector<Reason>& constraints, std::deque<SituationSpace>& spaces) {
-  return go_through(formula, [&](const SituationSpace& space, const Asked& question,
-                                 const ValueSets& values) {
+  return go_through(formulas, [&](const SituationSpace& space, const Asked& question,
+                                  const ValueSets& values) {
            if (spaces.size() == most_cases_of_conflict) return Feasibility::unknown;
            questions.add(question, &values, &spaces.emplace_back(space));
            for (const Reason& reason : constraints_on(catalog_, question, true)) {
@@ -115,17 +119,17 @@ bool StateAsk::collect(const Formula& formula, const Counts& counts, RelaxedQues
          }) == Feasibility::no;
 }
 
-Feasibility StateAsk::go_through(const Formula& formula, const OnCase& on_case) {
-  return go_on({{}, space_.all(), {}, {}, {}}, {&formula}, on_case);
+Feasibility StateAsk::go_through(const Formulas& formulas, const OnCase& on_case) {
+  return go_on({{}, space_.all(), {}, {}, {}}, formulas, on_case);
 }
 
 /// `open`: what the case has to satisfy, too.
-Feasibility StateAsk::go_on(Case of_state, std::vector<const Formula*> open,
-                            const OnCase& on_case) {
-  std::vector<const Formula*> choices;
+Feasibility StateAsk::go_on(Case of_state, Formulas open, const OnCase& on_case) {
+  Formulas choices;
   while (!open.empty()) {
     const Formula& next = *open.back();
     open.pop_back();
+    search_.effort().spend(effort_of_part);
     if (next.kind == Formula::Kind::all) {
       for (const Formula& part : next.parts) open.push_back(&part);
     } else if (next.kind == Formula::Kind::any) {
@@ -138,7 +142,7 @@ Feasibility StateAsk::go_on(Case of_state, std::vector<const Formula*> open,
   const Formula& choice = *choices.back();
   choices.pop_back();
   for (const Formula& part : choice.parts) {
-    std::vector<const Formula*> rest = choices;
+    Formulas rest = choices;
     rest.push_back(&part);
     search_.effort().spend(effort_of_case);
     if (search_.is_exhausted()) return Feasibility::unknown;
@@ -157,7 +161,7 @@ bool StateAsk::add(const Formula& literal, Case& of_state) const {
       return add_variable(literal, of_state.values);
     case Formula::Kind::own: {
       const BehaviorId behavior(literal.subject);
-      for (const SituationPart::Own& own : limits_.constant.behaviors) {
+      for (const SituationPart::Own& own : possible_.constant.behaviors) {
         if (own.behavior == behavior) return own.available == literal.wanted;
       }
       return of_state.own.try_emplace(behavior, literal.wanted).first->second == literal.wanted;
@@ -196,7 +200,7 @@ bool StateAsk::add_variable(const Formula& literal, ValueSets& values) const {
 }
 
 bool StateAsk::can_fail(BehaviorId behavior) const {
-  return limits_.faults > 0 && (!limits_.can_fail || limits_.can_fail(behavior));
+  return possible_.faults > 0 && (!possible_.can_fail || possible_.can_fail(behavior));
 }
 
 bool StateAsk::add_fault(BehaviorId behavior, bool wanted, Case& of_state) const {
@@ -204,7 +208,7 @@ bool StateAsk::add_fault(BehaviorId behavior, bool wanted, Case& of_state) const
   const bool is_faulty = of_state.faulty.try_emplace(behavior, wanted).first->second;
   const auto count = std::count_if(of_state.faulty.begin(), of_state.faulty.end(),
                                    [](const auto& one) { return one.second; });
-  return is_faulty == wanted && static_cast<std::uint64_t>(count) <= limits_.faults;
+  return is_faulty == wanted && static_cast<std::uint64_t>(count) <= possible_.faults;
 }
 
 /// Whether one of the behaviors of each of some_faults may be faulty; one of another is not
@@ -233,17 +237,17 @@ Feasibility StateAsk::settle(Case of_state, const OnCase& on_case) {
     return Feasibility::no;
   }
   const Asked question = asked_of(of_state);
-  if (limits_.never.empty()) return on_case(space_, question, of_state.values);
-  const SituationSpace space(catalog_, limits_.constant, never_in(of_state));
+  if (possible_.never.empty()) return on_case(space_, question, of_state.values);
+  const SituationSpace space(catalog_, possible_.constant, never_in(of_state));
   return on_case(space, question, of_state.values);
 }
 
 /// An own(b) that is not decided, but that an entry of `never` names.
 std::optional<BehaviorId> StateAsk::find_open_own(const Case& of_state) const {
-  for (const SituationPart& entry : limits_.never) {
+  for (const SituationPart& entry : possible_.never) {
     for (const SituationPart::Own& own : entry.behaviors) {
       const auto is_it = [&](const auto& other) { return other.behavior == own.behavior; };
-      const auto& constant = limits_.constant.behaviors;
+      const auto& constant = possible_.constant.behaviors;
       if (std::any_of(constant.begin(), constant.end(), is_it)) continue;
       if (!of_state.own.contains(own.behavior)) return own.behavior;
     }
@@ -254,9 +258,9 @@ std::optional<BehaviorId> StateAsk::find_open_own(const Case& of_state) const {
 /// The entries of `never`, with all own(b) as decided.
 std::vector<SituationPart> StateAsk::never_in(const Case& of_state) const {
   std::map<BehaviorId, bool> decided = of_state.own;
-  for (const auto& own : limits_.constant.behaviors) decided[own.behavior] = own.available;
+  for (const auto& own : possible_.constant.behaviors) decided[own.behavior] = own.available;
   std::vector<SituationPart> entries;
-  for (const SituationPart& entry : limits_.never) {
+  for (const SituationPart& entry : possible_.never) {
     const bool may_be = std::all_of(
         entry.behaviors.begin(), entry.behaviors.end(),
         [&](const SituationPart::Own& own) { return decided.at(own.behavior) == own.available; });

@@ -77,18 +77,23 @@ struct PossibleStates {
 class StateAsk {
  public:
   /// The catalog must outlive this object. The effort is that of all questions together.
-  StateAsk(const CompiledCatalog& catalog, const PossibleStates& limits, std::uint64_t effort);
+  StateAsk(const CompiledCatalog& catalog, const PossibleStates& possible, std::uint64_t effort);
+
+  [[nodiscard]] Effort& effort() { return search_.effort(); }
+
+  /// Formulas that all hold.
+  using Formulas = std::vector<const Formula*>;
 
   /// Under all constraints.
-  [[nodiscard]] Feasibility find(const Formula& formula);
+  [[nodiscard]] Feasibility find(const Formulas& formulas);
 
   /// Which constraints count.
   using Counts = std::function<bool(const Reason&)>;
   /// Under some of the constraints.
-  [[nodiscard]] Feasibility find_under(const Formula& formula, const Counts& counts);
-  /// Where no state satisfies a formula under some of the constraints: a minimal set of them with
-  /// which none does. Empty if it takes too long to find.
-  [[nodiscard]] std::vector<Reason> conflict(const Formula& formula, const Counts& counts);
+  [[nodiscard]] Feasibility find_under(const Formulas& formulas, const Counts& counts);
+  /// Where no state satisfies the formulas under some of the constraints: a minimal set of them
+  /// with which none does. Empty if it takes too long to find.
+  [[nodiscard]] std::vector<Reason> conflict(const Formulas& formulas, const Counts& counts);
 
  private:
   struct OfTask {
@@ -106,9 +111,8 @@ class StateAsk {
   /// Takes a case that may have a state; no: go on.
   using OnCase = std::function<Feasibility(const SituationSpace&, const Asked&, const ValueSets&)>;
 
-  [[nodiscard]] Feasibility go_through(const Formula& formula, const OnCase& on_case);
-  [[nodiscard]] Feasibility go_on(Case of_state, std::vector<const Formula*> open,
-                                  const OnCase& on_case);
+  [[nodiscard]] Feasibility go_through(const Formulas& formulas, const OnCase& on_case);
+  [[nodiscard]] Feasibility go_on(Case of_state, Formulas open, const OnCase& on_case);
   [[nodiscard]] bool add(const Formula& literal, Case& of_state) const;
   [[nodiscard]] bool add_task(const Formula& literal, OfTask& task) const;
   [[nodiscard]] bool add_variable(const Formula& literal, ValueSets& values) const;
@@ -119,12 +123,12 @@ class StateAsk {
   [[nodiscard]] std::optional<BehaviorId> find_open_own(const Case& of_state) const;
   [[nodiscard]] std::vector<SituationPart> never_in(const Case& of_state) const;
   [[nodiscard]] Asked asked_of(const Case& of_state) const;
-  [[nodiscard]] bool collect(const Formula& formula, const Counts& counts,
+  [[nodiscard]] bool collect(const Formulas& formulas, const Counts& counts,
                              RelaxedQuestions& questions, std::vector<Reason>& constraints,
                              std::deque<SituationSpace>& spaces);
 
   const CompiledCatalog& catalog_;
-  const PossibleStates limits_;
+  const PossibleStates possible_;
   const SituationSpace space_;  ///< without `never`
   AssignmentSearch search_;
 };

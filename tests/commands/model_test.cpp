@@ -50,7 +50,7 @@ TEST(Model, RefusesMoreBehaviorsThanACellHolds) {
     assumptions.initially.variables.push_back({0, 1});
     Property never_runs;
     never_runs.kind = Property::Kind::never;
-    never_runs.condition.running.push_back({TaskId(0), {}});
+    never_runs.condition = StateCondition::of_task(StateCondition::Kind::running, TaskId(0));
     const Exploration exploration = explore(catalog, {GroupId(0)}, assumptions, {&never_runs}, {});
     if (count < Model::most_in_cell) {
       EXPECT_FALSE(exploration.error);

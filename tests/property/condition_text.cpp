@@ -1,6 +1,7 @@
 #include "condition_text.h"
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
@@ -18,45 +19,60 @@ class Writer {
  public:
   explicit Writer(const CompiledCatalog& catalog) : catalog_(catalog) {}
 
+  /// `condition`: all of its parts.
   [[nodiscard]] std::string condition(const StateCondition& condition) const {
+    std::map<std::string, std::vector<std::string>> lists;
+    std::map<std::string, std::vector<std::string>> maps;
     std::vector<std::string> parts;
-    const auto add = [&parts](const std::string& key, const std::string& value) {
-      parts.push_back(key + ": " + value);
-    };
-    if (!condition.running.empty()) {
-      std::vector<std::string> entries;
-      for (const auto& entry : condition.running) {
-        entries.push_back(task(entry.task) + ": " +
-                          (entry.behaviors.empty() ? "any" : behaviors(entry.behaviors)));
+    for (const StateCondition& part : condition.parts) {
+      switch (part.kind) {
+        case Kind::running:
+          maps["running"].push_back(task(part.task) + ": " +
+                                    (part.behaviors.empty() ? "any" : behaviors(part.behaviors)));
+          break;
+        case Kind::stopped:
+          lists["stopped"].push_back(task(part.task));
+          break;
+        case Kind::active:
+          lists["active_includes"].push_back(behavior(part.behavior));
+          break;
+        case Kind::only_active: {
+          std::vector<BehaviorId> listed;
+          for (const StateCondition& active : part.parts) listed.push_back(active.behavior);
+          parts.push_back("active: " + behaviors(listed));
+          break;
+        }
+        case Kind::faulty:
+          lists["faulty"].push_back(behavior(part.behavior));
+          break;
+        case Kind::available:
+          lists["available"].push_back(behavior(part.behavior));
+          break;
+        case Kind::requested:
+          maps["requested"].push_back(task(part.task) + ": " + std::to_string(part.priority));
+          break;
+        case Kind::variable:
+        case Kind::own:
+          maps["situation"].push_back(situation(part));
+          break;
+        case Kind::negated:
+          parts.push_back("not: " + this->condition(part.parts.front()));
+          break;
+        case Kind::any:
+          parts.push_back("any: " + list_of(conditions(part.parts)));
+          break;
+        case Kind::all:
+          for (const StateCondition& inner : part.parts)
+            lists["all"].push_back(this->condition(inner));
+          break;
+        case Kind::none_faulty:
+          // With a list of faulty behaviors it needs a mapping of its own.
+          lists["all"].emplace_back("{faulty: none}");
+          break;
       }
-      add("running", map_of(entries));
     }
-    if (!condition.stopped.empty()) {
-      std::vector<std::string> tasks;
-      for (const TaskId one : condition.stopped) tasks.push_back(task(one));
-      add("stopped", list_of(tasks));
-    }
-    if (!condition.active.empty() || condition.only_active) {
-      add(condition.only_active ? "active" : "active_includes", behaviors(condition.active));
-    }
-    if (!condition.faulty.empty()) add("faulty", behaviors(condition.faulty));
-    if (!condition.available.empty()) add("available", behaviors(condition.available));
-    if (!condition.requested.empty()) {
-      std::vector<std::string> entries;
-      for (const auto& entry : condition.requested) {
-        entries.push_back(task(entry.task) + ": " + std::to_string(entry.priority));
-      }
-      add("requested", map_of(entries));
-    }
-    if (const std::vector<std::string> entries = situation(condition); !entries.empty()) {
-      add("situation", map_of(entries));
-    }
-    for (const StateCondition& part : condition.negated) add("not", this->condition(part));
-    if (!condition.any.empty()) add("any", list_of(conditions(condition.any)));
-    std::vector<std::string> all = conditions(condition.all);
-    // With a list of faulty behaviors it needs a mapping of its own.
-    if (condition.none_faulty) all.emplace_back("{faulty: none}");
-    if (!all.empty()) add("all", list_of(all));
+    for (const auto& [key, items] : lists) parts.push_back(key + ": " + list_of(items));
+    for (const auto& [key, entries] : maps) parts.push_back(key + ": " + map_of(entries));
     return map_of(parts);
   }
 
@@ -82,6 +98,8 @@ class Writer {
   }
 
  private:
+  using Kind = StateCondition::Kind;
+
   [[nodiscard]] static std::string joined(const std::vector<std::string>& texts) {
     std::string all;
     for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
@@ -94,12 +112,13 @@ class Writer {
     return "[" + joined(items) + "]";
   }
 
+  [[nodiscard]] std::string behavior(BehaviorId behavior) const {
+    return in_quotes(catalog_.name_of_behavior(behavior));
+  }
   [[nodiscard]] std::string behaviors(const std::vector<BehaviorId>& behaviors) const {
     std::vector<std::string> names;
     names.reserve(behaviors.size());
-    for (const BehaviorId one : behaviors) {
-      names.push_back(in_quotes(catalog_.name_of_behavior(one)));
-    }
+    for (const BehaviorId one : behaviors) names.push_back(behavior(one));
     return list_of(names);
   }
   [[nodiscard]] std::vector<std::string> conditions(
@@ -109,21 +128,15 @@ class Writer {
     for (const StateCondition& part : conditions) texts.push_back(condition(part));
     return texts;
   }
-  [[nodiscard]] std::vector<std::string> situation(const StateCondition& condition) const {
-    std::vector<std::string> entries;
-    for (const auto& entry : condition.variables) {
-      std::vector<std::string> values;
-      for (const std::uint32_t value : entry.values) {
-        values.push_back(in_quotes(catalog_.name_of_value({entry.variable, value})));
-      }
-      entries.push_back(in_quotes(catalog_.name_of_variable(entry.variable)) + ": " +
-                        (values.size() == 1 ? values.front() : list_of(values)));
+  [[nodiscard]] std::string situation(const StateCondition& part) const {
+    if (part.kind == Kind::own)
+      return behavior(part.behavior) + (part.wanted ? ": true" : ": false");
+    std::vector<std::string> values;
+    for (const std::uint32_t value : part.values) {
+      values.push_back(in_quotes(catalog_.name_of_value({part.variable, value})));
     }
-    for (const auto& entry : condition.own) {
-      entries.push_back(in_quotes(catalog_.name_of_behavior(entry.behavior)) + ": " +
-                        (entry.available ? "true" : "false"));
-    }
-    return entries;
+    return in_quotes(catalog_.name_of_variable(part.variable)) + ": " +
+           (values.size() == 1 ? values.front() : list_of(values));
   }
 
   const CompiledCatalog& catalog_;

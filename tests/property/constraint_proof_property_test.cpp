@@ -1,11 +1,14 @@
 // What is proved by the constraints alone must hold in every state that satisfies them, reachable
-// or not, and all of that must be proved: compared with a look at every assignment, situation, and
-// set of faults. CBC_SEED and CBC_PROPERTY_CASES are as in property_test.cpp.
+// or not, and all of that must be proved; conditions that are said to contradict one another must
+// do so, none of them left out, and all that do must be found: compared with a look at every
+// assignment, situation, and set of faults. CBC_SEED and CBC_PROPERTY_CASES are as in
+// property_test.cpp.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,13 +16,17 @@
 #include <gtest/gtest.h>
 
 #include "compiled_model.h"
+#include "core/property/constraint_proof.h"
+#include "core/script/contradictions.h"
 #include "demand.h"
 #include "enumeration.h"
 #include "explore/properties/verification.h"
 #include "lint_oracle.h"
 #include "plain_exploration.h"
 #include "plain_model.h"
+#include "random.h"
 #include "random_cases.h"
+#include "runtime/base/text.h"
 #include "statistics.h"
 #include "verify_case.h"
 
@@ -189,8 +196,9 @@ class ConsistentStates : private oracle::CompiledModel {
 
 bool names_requests(const Property& property) {
   const auto conditions = conditions_of(property);
-  return std::any_of(conditions.begin(), conditions.end(),
-                     [](const StateCondition* part) { return !part->requested.empty(); });
+  return std::any_of(conditions.begin(), conditions.end(), [](const StateCondition* part) {
+    return part->kind == StateCondition::Kind::requested;
+  });
 }
 
 /// What is found, and what is enumerated.
@@ -234,6 +242,119 @@ void compare_with_states(const VerifyCase& sample, const Property& property, con
   if (!answer.verdict.is_vacuous && property.when) statistics.count("some state counts");
 }
 
+/// Up to so many conditions that are to hold together.
+constexpr std::size_t most_parts = 6;
+constexpr std::uint64_t most_states_of_parts = 20'000;
+
+/// Some parts of the conditions of the properties, each with a line of its own.
+std::vector<StateCondition> draw_parts(const VerifyCase& sample, oracle::Random& random) {
+  using Kind = StateCondition::Kind;
+  std::vector<StateCondition> all;
+  for (const Property& property : sample.question.properties) {
+    for (const StateCondition* condition : conditions_of(property)) {
+      const bool is_joined = condition->kind == Kind::all || condition->kind == Kind::any;
+      bool has_request = false;
+      for_each_condition(*condition, [&](const StateCondition& part) {
+        has_request |= part.kind == Kind::requested;
+      });
+      // Requests are not looked at.
+      if (!is_joined && !has_request) all.push_back(*condition);
+    }
+  }
+  std::vector<StateCondition> drawn;
+  for (std::size_t wanted = 1 + random.below(most_parts); wanted > 0 && !all.empty(); --wanted) {
+    drawn.push_back(random.pick(all));
+    const auto line = static_cast<std::uint32_t>(100 * drawn.size());
+    drawn.back().range = {{line, 1}, {line, 2}};
+    std::uint32_t next = line;
+    for (StateCondition& part : drawn.back().parts) {
+      ++next;
+      part.range = {{next, 1}, {next, 2}};
+    }
+  }
+  return drawn;
+}
+
+/// Of contradictions, what is found, and what is enumerated.
+class ComparedContradictions {
+ public:
+  ComparedContradictions(const VerifyCase& sample, const ConsistentStates& states)
+      : sample_(sample),
+        states_(states),
+        model_(sample.catalog, sample.question.groups, sample.question.assumptions, {}) {}
+
+  void compare(const std::vector<StateCondition>& conditions, oracle::Statistics& statistics) {
+    const Contradictions contradictions(sample_.catalog);
+    const StateCondition joined = StateCondition::join(StateCondition::Kind::all, conditions);
+    contradictions.add(joined, parts_);
+    StateAsk ask(sample_.catalog, possible_states(sample_.catalog, sample_.question.assumptions),
+                 most_effort_of_assignments);
+    Contradictions::Parts parts = parts_;
+    Diagnostics diagnostics;
+    const Reporter reporter("p.yaml", diagnostics);
+    const auto found = contradictions.find(parts, Ground::catalog, ask, reporter);
+    std::set<std::size_t> left = lines();
+    if (!holds(left) && !holds({})) return;
+    for (const Impossible& impossible : found) {
+      std::set<std::size_t> reason{impossible.range.begin.line};
+      for (const Note& note : impossible.notes) {
+        if (note.message == "expected here") reason.insert(note.range.begin.line);
+      }
+      demand(!holds(reason), "possible: " + impossible.why);
+      for (const std::size_t line : reason) {
+        std::set<std::size_t> fewer = reason;
+        fewer.erase(line);
+        demand(holds(fewer), "impossible with less: " + impossible.why);
+      }
+      left.erase(impossible.range.begin.line);
+      statistics.count(concat("contradiction of ", reason.size()));
+    }
+    demand(holds(left), "a contradiction is not found");
+    statistics.count(found.empty() ? "no contradiction" : "contradictions");
+  }
+
+ private:
+  [[nodiscard]] std::set<std::size_t> lines() const {
+    std::set<std::size_t> all;
+    for (const Contradictions::Part& part : parts_) all.insert(part.condition->range.begin.line);
+    return all;
+  }
+
+  /// Whether some state satisfies the parts in these lines.
+  [[nodiscard]] bool holds(const std::set<std::size_t>& lines) const {
+    return states_.any([&](const Snapshot& state) {
+      return std::all_of(parts_.begin(), parts_.end(), [&](const Contradictions::Part& part) {
+        return !lines.contains(part.condition->range.begin.line) || holds(*part.condition, state);
+      });
+    });
+  }
+
+  /// The behaviors that are listed as all are parts of their own.
+  [[nodiscard]] bool holds(const StateCondition& part, const Snapshot& state) const {
+    if (part.kind != StateCondition::Kind::only_active) return model_.holds(part, state);
+    return std::all_of(state.active.begin(), state.active.end(), [&](const auto& entry) {
+      return std::any_of(part.parts.begin(), part.parts.end(), [&](const StateCondition& listed) {
+        return listed.behavior == entry.first;
+      });
+    });
+  }
+
+  const VerifyCase& sample_;
+  const ConsistentStates& states_;
+  const PlainModel model_;
+  Contradictions::Parts parts_;
+};
+
+void compare_contradictions(const VerifyCase& sample, const oracle::LintOracle& constraints,
+                            std::uint64_t seed, oracle::Statistics& statistics) {
+  const ConsistentStates states(sample, constraints, sample.question.groups);
+  if (states.count() > most_states_of_parts) return;
+  oracle::Random random(seed);
+  for (int round = 0; round < 5; ++round) {
+    ComparedContradictions(sample, states).compare(draw_parts(sample, random), statistics);
+  }
+}
+
 void run_case(std::uint64_t seed, oracle::Results& results) {
   VerifyCase sample;
   try {
@@ -259,6 +380,7 @@ void run_case(std::uint64_t seed, oracle::Results& results) {
       }
       if (is_proved) compare_with_states(sample, property, answer, results.statistics);
     }
+    compare_contradictions(sample, constraints, seed, results.statistics);
   } catch (const std::exception& error) {
     results.faults.push_back({seed, "seed " + std::to_string(seed) + "\n--- catalog\n" +
                                         text_of(sample) + "--- fault\n" + error.what() + "\n"});
@@ -269,7 +391,8 @@ const oracle::LowerBound lower_bounds[] = {
     {"proved as enumerated", 200},    {"not proved as enumerated", 300},
     {"proved of several groups", 10}, {"proved with never", 50},
     {"proved for all states", 200},   {"vacuous", 30},
-    {"some state counts", 30},
+    {"some state counts", 30},        {"no contradiction", 300},
+    {"contradictions", 300},
 };
 
 TEST(ConstraintProof, IsThatOfEnumeration) {

@@ -335,9 +335,10 @@ std::optional<bool> can_be_noticed(const Case& one, const std::string& key,
     const auto behavior = catalog.find_behavior(key.substr(key.find(' ') + 1));
     Property property;
     property.kind = Property::Kind::reachable;
-    property.condition.active = {catalog.behavior_ids[behavior.value()]};
+    const BehaviorId id = catalog.behavior_ids[behavior.value()];
+    property.condition = StateCondition::of_behavior(StateCondition::Kind::active, id);
     // The other way around it may show, too: if it is active in the middle of a move.
-    if (is_reachable(one, property, property.condition.active.front()).value_or(false)) return true;
+    if (is_reachable(one, property, id).value_or(false)) return true;
   }
   if (!key.starts_with("timeout") && !key.starts_with("execution_goal")) {
     const PlainComparison found = compare_plainly(compiled, catalog, one.assumptions, most_states,
@@ -354,8 +355,9 @@ std::optional<bool> can_be_noticed(const Case& one, const std::string& key,
       }
       Property property;
       property.kind = Property::Kind::reachable;
-      property.condition.running = {
-          {catalog.task_ids[performance.task], {catalog.behavior_ids[behavior]}}};
+      property.condition =
+          StateCondition::of_task(StateCondition::Kind::running, catalog.task_ids[performance.task],
+                                  {catalog.behavior_ids[behavior]});
       const auto found = is_reachable(one, property, catalog.behavior_ids[behavior]);
       if (!found || *found) return found;
     }

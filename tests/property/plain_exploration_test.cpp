@@ -71,7 +71,8 @@ exclusivity_constraints:
 )");
   Property settled;
   settled.kind = Property::Kind::never;
-  settled.condition.stopped = {TaskId(0), TaskId(1)};
+  settled.condition.parts = {StateCondition::of_task(StateCondition::Kind::stopped, TaskId(0)),
+                             StateCondition::of_task(StateCondition::Kind::stopped, TaskId(1))};
   settled.settled = true;
   Assumptions assumptions = default_assumptions(catalog);
   Exploration result = explore_all(catalog, assumptions, {&settled});
@@ -197,7 +198,7 @@ TEST(PlainExploration, ChangesVariablesTogether) {
   assumptions.together = {{0, 1}};
   Property both;
   both.kind = Property::Kind::reachable;
-  both.condition.variables = {{0, {1}}, {1, {1}}};
+  both.condition.parts = {StateCondition::of_variable(0, {1}), StateCondition::of_variable(1, {1})};
   const auto explore_group = [&](std::uint32_t group) {
     return explore_plainly(catalog, {GroupId(group)}, assumptions, {&both}, most_states);
   };
@@ -224,7 +225,7 @@ TEST(PlainExploration, LetsOnlySomeBehaviorsFail) {
   assumptions.only_listed_fail = true;
   Property faulty;
   faulty.kind = Property::Kind::reachable;
-  faulty.condition.faulty = {BehaviorId(0)};
+  faulty.condition = StateCondition::of_behavior(StateCondition::Kind::faulty, BehaviorId(0));
   const Exploration result = explore_all(catalog, assumptions, {&faulty});
   EXPECT_EQ(result.states_at_depth, (Counts{1, 1}));
   EXPECT_EQ(result.verdicts.at(0).result, Verdict::Result::violated);
@@ -261,7 +262,7 @@ TEST(PlainExploration, ComparesPrioritiesInTheOrderOfTheList) {
   assumptions.start = {{TaskId(0), {3, 1}}};
   Property runs;
   runs.kind = Property::Kind::reachable;
-  runs.condition.running = {{TaskId(0), {}}};
+  runs.condition = StateCondition::of_task(StateCondition::Kind::running, TaskId(0));
   const Exploration result = explore_all(catalog, assumptions, {&runs});
   EXPECT_EQ(result.verdicts.at(0).result, Verdict::Result::proved);
   EXPECT_EQ(result.verdicts.at(0).script, (std::vector<Move>{{Move::Kind::start, 0, 3}}));

@@ -464,50 +464,49 @@ std::string PlainModel::key(const Snapshot& state) const {
 }
 
 bool PlainModel::holds(const StateCondition& condition, const Snapshot& state) const {
+  using Kind = StateCondition::Kind;
   const auto is_true = [&](const StateCondition& part) { return holds(part, state); };
-  if (!holds_by_itself(condition, state)) return false;
-  if (std::any_of(condition.negated.begin(), condition.negated.end(), is_true)) return false;
-  if (!std::all_of(condition.all.begin(), condition.all.end(), is_true)) return false;
-  return condition.any.empty() || std::any_of(condition.any.begin(), condition.any.end(), is_true);
-}
-
-bool PlainModel::holds_by_itself(const StateCondition& condition, const Snapshot& state) const {
-  const auto all = [](const auto& items, auto&& test) {
-    return std::all_of(items.begin(), items.end(), test);
-  };
-  return all(condition.running,
-             [&](const StateCondition::Running& part) {
-               const auto* const entry = find_running(state, part.task);
-               return entry != nullptr && (part.behaviors.empty() ||
-                                           contains(part.behaviors, behavior_of(catalog_, *entry)));
-             }) &&
-         all(condition.stopped,
-             [&](TaskId task) { return find_running(state, task) == nullptr; }) &&
-         all(condition.active, [&](BehaviorId behavior) { return is_active(state, behavior); }) &&
-         (!condition.only_active ||
-          all(state.active,
-              [&](const auto& entry) { return contains(condition.active, entry.first); })) &&
-         all(condition.faulty,
-             [&](BehaviorId behavior) { return contains(state.faulty, behavior); }) &&
-         (!condition.none_faulty || state.faulty.empty()) &&
-         all(condition.available,
-             [&](BehaviorId behavior) {
-               return !contains(state.denied, behavior) &&
-                      !catalog_.find_misfit(behavior, state.variables);
-             }) &&
-         all(condition.requested,
-             [&](const StateCondition::Requested& part) {
-               const auto* const entry = find_running(state, part.task);
-               return entry != nullptr && entry->request &&
-                      entry->request->priority >= part.priority;
-             }) &&
-         all(condition.variables,
-             [&](const StateCondition::Situated& part) {
-               return contains(part.values, state.variables[part.variable]);
-             }) &&
-         all(condition.own, [&](const SituationPart::Own& part) {
-           return contains(state.denied, part.behavior) != part.available;
-         });
+  const auto& parts = condition.parts;
+  switch (condition.kind) {
+    case Kind::all:
+      return std::all_of(parts.begin(), parts.end(), is_true);
+    case Kind::any:
+      return std::any_of(parts.begin(), parts.end(), is_true);
+    case Kind::negated:
+      return !is_true(parts.front());
+    case Kind::only_active:
+      return std::all_of(parts.begin(), parts.end(), is_true) &&
+             std::all_of(state.active.begin(), state.active.end(), [&](const auto& entry) {
+               return std::any_of(parts.begin(), parts.end(), [&](const StateCondition& part) {
+                 return part.behavior == entry.first;
+               });
+             });
+    case Kind::running: {
+      const auto* const entry = find_running(state, condition.task);
+      return entry != nullptr && (condition.behaviors.empty() ||
+                                  contains(condition.behaviors, behavior_of(catalog_, *entry)));
+    }
+    case Kind::stopped:
+      return find_running(state, condition.task) == nullptr;
+    case Kind::active:
+      return is_active(state, condition.behavior);
+    case Kind::faulty:
+      return contains(state.faulty, condition.behavior);
+    case Kind::none_faulty:
+      return state.faulty.empty();
+    case Kind::available:
+      return !contains(state.denied, condition.behavior) &&
+             !catalog_.find_misfit(condition.behavior, state.variables);
+    case Kind::requested: {
+      const auto* const entry = find_running(state, condition.task);
+      return entry != nullptr && entry->request && entry->request->priority >= condition.priority;
+    }
+    case Kind::variable:
+      return contains(condition.values, state.variables[condition.variable]);
+    case Kind::own:
+      return contains(state.denied, condition.behavior) != condition.wanted;
+  }
+  return false;
 }
 
 }  // namespace cbc::plain

@@ -76,8 +76,6 @@ class PlainModel {
 
  private:
   [[nodiscard]] bool has_group(GroupId group) const;
-  /// Without what stands in it.
-  [[nodiscard]] bool holds_by_itself(const StateCondition& condition, const Snapshot& state) const;
   bool add_tied();
   void add_starts(const Snapshot& state, std::vector<Move>& moves) const;
   void add_finishes(const Snapshot& state, std::vector<Move>& moves) const;

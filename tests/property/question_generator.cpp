@@ -38,6 +38,8 @@ class QuestionGenerator {
   }
 
  private:
+  using Kind = StateCondition::Kind;
+
   /// Most often the largest group, which is the first of those.
   void choose_groups() {
     std::vector<GroupId> groups(catalog_.group_count());
@@ -306,17 +308,19 @@ class QuestionGenerator {
     const bool is_nested = depth < 3 && random_.percent(depth == 0 ? 65 : 40);
     if (!is_nested) return draw_condition(parts);
     StateCondition condition = draw_condition(random_.below(parts + 1));
-    const auto add = [&](std::vector<StateCondition>& inner, std::size_t most) {
+    const auto add_inner = [&](Kind kind, std::size_t most) {
+      StateCondition joined{kind};
       const std::size_t wanted = 1 + random_.below(most);
       for (std::size_t i = 0; i < wanted; ++i) {
-        inner.push_back(random_.percent(25) ? describe_state(1 + random_.below(3))
-                                            : draw_nested(1 + random_.below(2), depth + 1));
+        add(joined, random_.percent(25) ? describe_state(1 + random_.below(3))
+                                        : draw_nested(1 + random_.below(2), depth + 1));
       }
+      add(condition, std::move(joined));
     };
     const std::size_t kind = random_.below(100);
-    if (kind < 45) add(condition.negated, 1);
-    if (kind >= 30 && kind < 80) add(condition.any, 3);
-    if (kind >= 70) add(condition.all, 2);
+    if (kind < 45) add_inner(Kind::negated, 1);
+    if (kind >= 30 && kind < 80) add_inner(Kind::any, 3);
+    if (kind >= 70) add_inner(Kind::all, 2);
     return condition;
   }
 
@@ -338,35 +342,66 @@ class QuestionGenerator {
   }
 
   void add_values(StateCondition& condition, VariableValue value) {
-    for (const StateCondition::Situated& entry : condition.variables) {
-      if (entry.variable == value.variable) return;
+    for (const StateCondition& part : condition.parts) {
+      if (part.variable == value.variable) return;
     }
     std::vector<std::uint32_t> all(catalog_.variables[value.variable].value_count);
     for (std::uint32_t place = 0; place < all.size(); ++place) all[place] = place;
-    condition.variables.push_back({value.variable, random_.percent(50)
-                                                       ? std::vector{value.value}
-                                                       : with_others(value.value, all)});
+    add(condition, StateCondition::of_variable(
+                       value.variable, random_.percent(50) ? std::vector{value.value}
+                                                           : with_others(value.value, all)));
   }
 
   static void add_own(StateCondition& condition, BehaviorId behavior, bool available) {
-    for (const SituationPart::Own& entry : condition.own) {
-      if (entry.behavior == behavior) return;
+    for (const StateCondition& part : condition.parts) {
+      if (part.kind == Kind::own && part.behavior == behavior) return;
     }
-    condition.own.push_back({behavior, available});
+    add(condition, StateCondition::own(behavior, available));
+  }
+
+  static void add(StateCondition& condition, StateCondition part) {
+    condition.parts.push_back(std::move(part));
+  }
+
+  /// A part that lists all active behaviors, or null.
+  static StateCondition* find_only(StateCondition& condition) {
+    for (StateCondition& part : condition.parts) {
+      if (part.kind == Kind::only_active) return &part;
+    }
+    return nullptr;
+  }
+
+  static void add_active(StateCondition& condition, BehaviorId behavior) {
+    StateCondition* const only = find_only(condition);
+    add(only == nullptr ? condition : *only, StateCondition::of_behavior(Kind::active, behavior));
+  }
+
+  /// No other behavior is active.
+  static void make_only(StateCondition& condition) {
+    if (find_only(condition) != nullptr) return;
+    StateCondition only{Kind::only_active};
+    std::vector<StateCondition> others;
+    for (StateCondition& part : condition.parts) {
+      (part.kind == Kind::active ? only.parts : others).push_back(std::move(part));
+    }
+    others.push_back(std::move(only));
+    condition.parts = std::move(others);
   }
 
   void add_running(StateCondition& condition, TaskId task, BehaviorId behavior) {
     std::vector<BehaviorId> performers;
     for (const Value& value : catalog_.values[task]) performers.push_back(value.behavior);
-    condition.running.push_back(
-        {task, random_.percent(60) ? std::vector{behavior} : with_others(behavior, performers)});
+    add(condition,
+        StateCondition::of_task(
+            Kind::running, task,
+            random_.percent(60) ? std::vector{behavior} : with_others(behavior, performers)));
   }
 
   void add_fact(StateCondition& condition) {
     const TaskId task = random_.pick(tasks_);
     const std::size_t kind = random_.below(100);
     if (kind < 15 && !state_.faulty.empty()) {
-      condition.faulty.push_back(random_.pick(state_.faulty));
+      add(condition, StateCondition::of_behavior(Kind::faulty, random_.pick(state_.faulty)));
     } else if (kind < 25 && !variables_.empty()) {
       const std::uint32_t variable = random_.pick(variables_);
       add_values(condition, {variable, state_.variables[variable]});
@@ -374,21 +409,23 @@ class QuestionGenerator {
       const BehaviorId behavior = random_.pick(behaviors_);
       add_own(condition, behavior, !contains(state_.denied, behavior));
     } else if (kind < 38 && state_.faulty.empty()) {
-      condition.none_faulty = true;
+      add(condition, StateCondition{Kind::none_faulty});
     } else if (const auto* const entry = find_running(state_, task); entry == nullptr) {
-      condition.stopped.push_back(task);
+      add(condition, StateCondition::of_task(Kind::stopped, task));
     } else if (const BehaviorId behavior = catalog_.values[task][entry->value_index].behavior;
                entry->request && entry->request->priority > 0 && random_.percent(40)) {
-      condition.requested.push_back({task, entry->request->priority});
+      add(condition, StateCondition::requested(task, entry->request->priority));
     } else if (random_.percent(15)) {
-      condition.active.push_back(behavior);
+      add_active(condition, behavior);
     } else if (random_.percent(15)) {
-      condition.active.clear();
-      condition.only_active = true;
-      for (const auto& [active, time] : state_.active) condition.active.push_back(active);
+      std::erase_if(condition.parts, [](const StateCondition& part) {
+        return part.kind == Kind::active || part.kind == Kind::only_active;
+      });
+      make_only(condition);
+      for (const auto& [active, time] : state_.active) add_active(condition, active);
     } else {
       random_.percent(60) ? add_running(condition, task, behavior)
-                          : condition.running.push_back({task, {}});
+                          : add(condition, StateCondition::of_task(Kind::running, task));
     }
   }
 
@@ -400,23 +437,23 @@ class QuestionGenerator {
       const auto values = catalog_.values[task];
       const bool is_any = values.empty() || random_.percent(50);
       if (is_any) {
-        condition.running.push_back({task, {}});
+        add(condition, StateCondition::of_task(Kind::running, task));
       } else {
         add_running(condition, task, values[random_.below(values.size())].behavior);
       }
     } else if (kind < 42) {
-      condition.stopped.push_back(task);
+      add(condition, StateCondition::of_task(Kind::stopped, task));
     } else if (kind < 46) {
-      condition.none_faulty = true;
+      add(condition, StateCondition{Kind::none_faulty});
     } else if (kind < 58) {
-      condition.active.push_back(random_.pick(behaviors_));
-      if (random_.percent(30)) condition.only_active = true;
+      add_active(condition, random_.pick(behaviors_));
+      if (random_.percent(30)) make_only(condition);
     } else if (kind < 66) {
-      condition.faulty.push_back(random_.pick(behaviors_));
+      add(condition, StateCondition::of_behavior(Kind::faulty, random_.pick(behaviors_)));
     } else if (kind < 74) {
-      condition.available.push_back(random_.pick(behaviors_));
+      add(condition, StateCondition::of_behavior(Kind::available, random_.pick(behaviors_)));
     } else if (kind < 87) {
-      condition.requested.push_back({task, random_.pick(priorities)});
+      add(condition, StateCondition::requested(task, random_.pick(priorities)));
     } else if (kind < 95 && !variables_.empty()) {
       add_values(condition, draw_value(random_.pick(variables_)));
     } else if (kind < 97 && !catalog_.variables.empty()) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "compiled_text.h"
+#include "core/script/condition.h"
 #include "generator.h"
 #include "random.h"
 #include "yaml_text.h"
@@ -88,34 +89,7 @@ class Writer {
   }
 
   [[nodiscard]] std::string condition(const StateCondition& condition) const {
-    std::string text;
-    for (const auto& entry : condition.running) {
-      text += " running " + task(entry.task) + ":";
-      if (entry.behaviors.empty()) text += "any";
-      for (const BehaviorId one : entry.behaviors) text += behavior(one) + ",";
-    }
-    for (const TaskId one : condition.stopped) text += " stopped " + task(one);
-    for (const BehaviorId one : condition.active) text += " active " + behavior(one);
-    if (condition.only_active) text += " only";
-    for (const BehaviorId one : condition.faulty) text += " faulty " + behavior(one);
-    if (condition.none_faulty) text += " none faulty";
-    for (const BehaviorId one : condition.available) text += " available " + behavior(one);
-    for (const auto& entry : condition.requested) {
-      text += " requested " + task(entry.task) + ":" + std::to_string(entry.priority);
-    }
-    for (const auto& entry : condition.variables) {
-      for (const std::uint32_t one : entry.values) text += " or " + value({entry.variable, one});
-    }
-    text += part({{}, condition.own});
-    return text + list("not", condition.negated) + list("any", condition.any) +
-           list("all", condition.all);
-  }
-
-  [[nodiscard]] std::string list(const char* what,
-                                 const std::vector<StateCondition>& conditions) const {
-    std::string text;
-    for (const StateCondition& one : conditions) text += " [" + condition(one) + " ]";
-    return text.empty() ? text : " " + (what + text);
+    return " " + describe_condition(catalog_, condition);
   }
 
   [[nodiscard]] std::string kinds(const MoveKinds& kinds) const {

@@ -277,10 +277,16 @@ void count_verdict(const Property& property, const Verdict& verdict,
   if (verdict.is_vacuous) statistics.count("vacuous");
 }
 
+bool is_nested(const StateCondition& part) {
+  return part.kind == StateCondition::Kind::negated || part.kind == StateCondition::Kind::any ||
+         part.kind == StateCondition::Kind::all;
+}
+
 std::size_t depth_of(const StateCondition& condition) {
   std::size_t depth = 0;
-  for (const auto* inner : {&condition.negated, &condition.any, &condition.all}) {
-    for (const StateCondition& part : *inner) depth = std::max(depth, 1 + depth_of(part));
+  for (const StateCondition& part : condition.parts) {
+    if (!is_nested(part)) continue;
+    for (const StateCondition& inner : part.parts) depth = std::max(depth, 1 + depth_of(inner));
   }
   return depth;
 }
@@ -292,16 +298,17 @@ std::set<std::string> forms_of(const Property& property) {
     if (has) forms.insert(what);
   };
   const auto look_at = [&](const StateCondition& condition) {
-    note(!condition.negated.empty(), "not");
-    note(condition.any.size() > 1, "any");
-    note(!condition.all.empty(), "all");
-    note(condition.none_faulty, "none faulty");
-    for (const auto& running : condition.running) {
-      note(running.behaviors.size() > 1, "list of behaviors");
-    }
-    for (const auto& situated : condition.variables) {
-      note(situated.values.size() > 1, "list of values");
-    }
+    const auto& parts = condition.parts;
+    note(condition.kind == StateCondition::Kind::negated, "not");
+    note(condition.kind == StateCondition::Kind::any && parts.size() > 1, "any");
+    note(condition.kind == StateCondition::Kind::all &&
+             std::any_of(
+                 parts.begin(), parts.end(),
+                 [](const StateCondition& part) { return part.kind == StateCondition::Kind::all; }),
+         "all");
+    note(condition.kind == StateCondition::Kind::none_faulty, "none faulty");
+    note(condition.behaviors.size() > 1, "list of behaviors");
+    note(condition.values.size() > 1, "list of values");
   };
   for_each_condition(property.condition, look_at);
   note(depth_of(property.condition) > 1, "nested twice");

@@ -110,46 +110,61 @@ std::string describe(const Assumptions& assumptions) {
   return text + "; initially" + describe(assumptions.initially);
 }
 
+/// All of the parts.
 std::string describe(const StateCondition& condition) {
+  using Kind = StateCondition::Kind;
   std::string text;
-  for (const StateCondition::Running& running : condition.running) {
-    std::string behaviors;
-    for (const BehaviorId behavior : running.behaviors) {
-      behaviors += (behaviors.empty() ? "" : "|") + name_of_behavior(behavior);
-    }
-    text +=
-        " running " + name_of_task(running.task) + "=" + (behaviors.empty() ? "any" : behaviors);
-  }
-  for (const TaskId task : condition.stopped) text += " stopped " + name_of_task(task);
-  for (const BehaviorId behavior : condition.active)
-    text += " active " + name_of_behavior(behavior);
-  if (condition.only_active) text += " only";
-  for (const BehaviorId behavior : condition.faulty)
-    text += " faulty " + name_of_behavior(behavior);
-  if (condition.none_faulty) text += " faulty none";
-  for (const BehaviorId behavior : condition.available) {
-    text += " available " + name_of_behavior(behavior);
-  }
-  for (const StateCondition::Requested& requested : condition.requested) {
-    text += " requested " + name_of_task(requested.task) + " " + std::to_string(requested.priority);
-  }
-  for (const StateCondition::Situated& situated : condition.variables) {
+  for (const StateCondition& part : condition.parts) {
     std::string values;
-    for (const std::uint32_t value : situated.values) {
-      values += (values.empty() ? "" : "|") +
-                std::string(catalog().name_of_value({situated.variable, value}));
+    const auto add_value = [&values](const std::string& name) {
+      values += (values.empty() ? "" : "|") + name;
+    };
+    for (const BehaviorId behavior : part.behaviors) add_value(name_of_behavior(behavior));
+    for (const std::uint32_t value : part.values) {
+      add_value(std::string(catalog().name_of_value({part.variable, value})));
     }
-    text += " " + std::string(catalog().name_of_variable(situated.variable)) + "=" + values;
+    switch (part.kind) {
+      case Kind::running:
+        text += " running " + name_of_task(part.task) + "=" + (values.empty() ? "any" : values);
+        break;
+      case Kind::stopped:
+        text += " stopped " + name_of_task(part.task);
+        break;
+      case Kind::active:
+        text += " active " + name_of_behavior(part.behavior);
+        break;
+      case Kind::only_active:
+        text += describe(part) + " only";
+        break;
+      case Kind::faulty:
+        text += " faulty " + name_of_behavior(part.behavior);
+        break;
+      case Kind::none_faulty:
+        text += " faulty none";
+        break;
+      case Kind::available:
+        text += " available " + name_of_behavior(part.behavior);
+        break;
+      case Kind::requested:
+        text += concat(" requested ", name_of_task(part.task), " ", part.priority);
+        break;
+      case Kind::variable:
+        text += " " + std::string(catalog().name_of_variable(part.variable)) + "=" + values;
+        break;
+      case Kind::own:
+        text += describe(SituationPart{{}, {{part.behavior, part.wanted}}});
+        break;
+      case Kind::negated:
+      case Kind::any:
+      case Kind::all:
+        for (const StateCondition& inner : part.parts) {
+          const char* const word = part.kind == Kind::negated ? "not"
+                                   : part.kind == Kind::any   ? "any"
+                                                              : "all";
+          text += concat(" ", word, "(", describe(inner), " )");
+        }
+    }
   }
-  text += describe(SituationPart{{}, condition.own});
-  const auto add = [&text](const char* what, const std::vector<StateCondition>& inner) {
-    for (const StateCondition& part : inner) {
-      text += concat(" ", what, "(", describe(part), " )");
-    }
-  };
-  add("not", condition.negated);
-  add("any", condition.any);
-  add("all", condition.all);
   return text;
 }
 
@@ -465,8 +480,9 @@ TEST(Properties, HaveConditionsOfManyParts) {
   EXPECT_EQ(property_of("never: {running: {HOVER: HOVER_PID, TALK: any}, stopped: [LAND, SEE], "
                         "active_includes: [GPS, TALK_LOUD], available: [SLAM], "
                         "requested: {TALK: 1, HOVER: 0}, situation: {LIGHT: dusk, SLAM: true}}"),
-            "2 never running HOVER=HOVER_PID running TALK=any stopped LAND stopped SEE active GPS "
-            "active TALK_LOUD available SLAM requested TALK 1 requested HOVER 0 LIGHT=dusk SLAM+");
+            "2 never running HOVER=HOVER_PID running TALK=any stopped LAND stopped SEE "
+            "active GPS active TALK_LOUD requested TALK 1 requested HOVER 0 LIGHT=dusk "
+            "SLAM+ available SLAM");
 }
 
 TEST(Properties, HaveOneKind) {
@@ -543,37 +559,37 @@ properties:
 
 TEST(Conditions, MustNotContradictThemselves) {
   EXPECT_EQ(findings_of_property("never: {running: [LAND], stopped: [TALK, LAND]}"),
-            "3:44-48 error impossible-expectation: this can never hold: task 'LAND' is also "
-            "expected to run\n"
-            "  3:21-25 expected to run here\n");
+            "3:44-48 error impossible-expectation: this can never hold: LAND runs and LAND "
+            "does not run\n"
+            "  3:21-25 expected here\n");
   EXPECT_EQ(findings_of_property("always: {running: {LAND: GPS}}"),
             "3:28-31 error impossible-expectation: this can never hold: behavior 'GPS' does not "
             "perform task 'LAND', it performs 'LOCALIZE'\n");
   EXPECT_EQ(findings_of_property("reachable: {requested: {LAND: 1}, stopped: [LAND]}"),
-            "3:27-31 error impossible-expectation: this can never hold: task 'LAND' is also "
-            "expected to be stopped, and loses its request then\n"
-            "  3:47-51 expected to be stopped here\n");
+            "3:27-31 error impossible-expectation: this can never hold: LAND does not run "
+            "and LAND is requested with priority 1 or more\n"
+            "  3:47-51 expected here\n");
   EXPECT_EQ(findings_of_property("never: {available: [GPS], situation: {GPS: false}}"),
-            "3:23-26 error impossible-expectation: this can never hold: behavior 'GPS' is also "
-            "expected to be unavailable\n"
-            "  3:41-44 expected to be unavailable here\n");
+            "3:23-26 error impossible-expectation: this can never hold: the situation "
+            "forbids GPS and behavior GPS is available\n"
+            "  3:41-44 expected here\n");
 }
 
 TEST(Conditions, LeaveATaskForEachActiveBehavior) {
   EXPECT_EQ(
       findings_of_property("never: {active_includes: [HOVER_PID], running: {HOVER: HOVER_MPC}}"),
-      "3:29-38 error impossible-expectation: this can never hold: no task is left for "
-      "behavior 'HOVER_PID'\n"
-      "  3:58-67 'HOVER' is expected to run with another behavior here\n");
+      "3:29-38 error impossible-expectation: this can never hold: HOVER runs with "
+      "HOVER_MPC and behavior HOVER_PID is active\n"
+      "  3:51-56 expected here\n");
   EXPECT_EQ(findings_of_property("never: {active_includes: [HOVER_PID, HOVER_MPC]}"),
-            "3:40-49 error impossible-expectation: this can never hold: no task is left for "
-            "behavior 'HOVER_MPC'\n"
-            "  3:29-38 'HOVER' is expected to run with another behavior here\n");
+            "3:40-49 error impossible-expectation: this can never hold: behavior HOVER_PID "
+            "is active and behavior HOVER_MPC is active\n"
+            "  3:29-38 expected here\n");
   EXPECT_EQ(findings_of_property("never: {active_includes: [EYE], stopped: [SEE, LOOK]}"),
-            "3:29-32 error impossible-expectation: this can never hold: no task is left for "
-            "behavior 'EYE'\n"
-            "  3:45-48 'SEE' is expected to be stopped here\n"
-            "  3:50-54 'LOOK' is expected to be stopped here\n");
+            "3:29-32 error impossible-expectation: this can never hold: SEE does not run "
+            "and LOOK does not run and behavior EYE is active\n"
+            "  3:45-48 expected here\n"
+            "  3:50-54 expected here\n");
   EXPECT_EQ(
       findings_of_property("never: {active_includes: [EYE], stopped: [SEE], running: {LOOK: EYE}}"),
       "");
@@ -581,12 +597,13 @@ TEST(Conditions, LeaveATaskForEachActiveBehavior) {
 
 TEST(Conditions, ListAllActiveBehaviorsOrSome) {
   EXPECT_EQ(findings_of_property("never: {active: [HOVER_PID], running: [LAND]}"),
-            "3:42-46 error impossible-expectation: this can never hold: no behavior that performs "
-            "task 'LAND' is among those that are to be active\n"
-            "  3:11-17 no other behavior is to be active\n");
+            "3:11-17 error impossible-expectation: this can never hold: LAND runs and only "
+            "behavior HOVER_PID is active\n"
+            "  3:42-46 expected here\n");
   EXPECT_EQ(findings_of_property("never: {active_includes: [HOVER_PID], running: [LAND]}"),
-            "3:29-38 note impossible-expectation: this is ruled out already: 'LAND' excludes "
-            "'HOVER' (a.yaml:18)\n");
+            "3:29-38 note impossible-expectation: this is ruled out already: LAND runs and "
+            "behavior HOVER_PID is active, as 'HOVER' excludes 'LAND' (a.yaml:18)\n"
+            "  3:51-55 expected here\n");
   EXPECT_EQ(findings_of_property("never: {active: [GPS], active_includes: [SLAM]}"),
             "3:26-41 error invalid-value: 'active' lists all behaviors that are active: leave out "
             "'active_includes', or 'active'\n"
@@ -597,33 +614,41 @@ TEST(Conditions, ListAllActiveBehaviorsOrSome) {
 }
 
 TEST(Conditions, MayBeRuledOutByTheCatalog) {
-  const std::string exclusion =
-      " impossible-expectation: this can never hold: 'HOVER' excludes 'LAND' (a.yaml:18)\n";
   // What "never" demands is no mistake.
-  const std::string already =
-      " impossible-expectation: this is ruled out already: 'HOVER' excludes 'LAND' (a.yaml:18)\n";
   EXPECT_EQ(findings_of_property("reachable: {running: [HOVER, LAND]}"),
-            "3:32-36 warning" + exclusion);
-  EXPECT_EQ(findings_of_property("never: {running: [HOVER, LAND]}"), "3:28-32 note" + already);
+            "3:32-36 warning impossible-expectation: this can never hold: HOVER runs and "
+            "LAND runs, as 'HOVER' excludes 'LAND' (a.yaml:18)\n"
+            "  3:25-30 expected here\n");
+  EXPECT_EQ(findings_of_property("never: {running: [HOVER, LAND]}"),
+            "3:28-32 note impossible-expectation: this is ruled out already: HOVER runs "
+            "and LAND runs, as 'HOVER' excludes 'LAND' (a.yaml:18)\n"
+            "  3:21-26 expected here\n");
   EXPECT_EQ(
       findings_of_property(
           "{always: {running: [TALK]}, when: {running: [HOVER], active_includes: [LAND_PID]}}"),
-      "3:74-82 warning" + exclusion);
+      "3:74-82 warning impossible-expectation: this can never hold: HOVER runs and "
+      "behavior LAND_PID is active, as 'HOVER' excludes 'LAND' (a.yaml:18)\n"
+      "  3:48-53 expected here\n");
   EXPECT_EQ(findings_of_property("reachable: {requested: {HOVER: 1, LAND: 0}}"),
-            "3:37-41 warning" + exclusion);
+            "3:37-41 warning impossible-expectation: this can never hold: HOVER is "
+            "requested with priority 1 or more and LAND is requested with priority 0 or "
+            "more, as 'HOVER' excludes 'LAND' (a.yaml:18)\n"
+            "  3:27-32 expected here\n");
   EXPECT_EQ(findings_of_property("reachable: {active_includes: [SLAM], situation: {LIGHT: night}}"),
-            "3:33-37 warning impossible-expectation: this can never hold: behavior 'SLAM' does not "
-            "fit 'LIGHT: night'\n"
-            "  3:52-57 expected here\n");
+            "3:52-57 warning impossible-expectation: this can never hold: behavior SLAM is "
+            "active and LIGHT is night, as behavior 'SLAM' fits only where 'LIGHT' is "
+            "'day' or 'dusk'\n"
+            "  3:33-37 expected here\n");
   EXPECT_EQ(findings_of_property("reachable: {active_includes: [SLAM], situation: {LIGHT: dusk}}"),
             "");
 }
 
 TEST(Conditions, MayBeRuledOutByRequirements) {
   EXPECT_EQ(findings_of_property("reachable: {active_includes: [HOVER_MPC], stopped: [LOCALIZE]}"),
-            "3:33-42 warning impossible-expectation: this can never hold: behavior 'HOVER_MPC' "
-            "requires task 'LOCALIZE' (a.yaml:10)\n"
-            "  3:55-63 expected to be stopped here\n");
+            "3:33-42 warning impossible-expectation: this can never hold: LOCALIZE does "
+            "not run and behavior HOVER_MPC is active, as behavior 'HOVER_MPC' requires "
+            "task 'LOCALIZE' (a.yaml:10)\n"
+            "  3:55-63 expected here\n");
   EXPECT_EQ(findings_of_property("reachable: {running: [HOVER], stopped: [LOCALIZE]}"), "");
   // That it is ruled out is what the property is there to prove.
   EXPECT_EQ(findings_of_property("never: {active_includes: [HOVER_MPC], stopped: [LOCALIZE]}"), "");
@@ -635,26 +660,25 @@ TEST(Conditions, MayBeRuledOutByTheAssumptions) {
   constexpr const char* assume = "{start: {LAND: [1, 2]}, situation: [SIGNAL, SLAM], faults: 1}";
   EXPECT_EQ(findings_of_property("reachable: {faulty: [GPS]}", assume), "");
   EXPECT_EQ(findings_of_property("reachable: {faulty: [GPS, SLAM]}", assume),
-            "3:29-33 warning impossible-expectation: this can never hold: 'faults' of 'assume' "
-            "allows only 1 at a time\n");
-  EXPECT_EQ(
-      findings_of_property("reachable: {faulty: [GPS]}", "{faults: {most: 1, of: [SLAM]}}"),
-      "3:24-27 warning impossible-expectation: this can never hold: behavior 'GPS' cannot become "
-      "faulty by 'faults' of 'assume'\n");
+            "3:29-33 warning impossible-expectation: this can never hold: behavior GPS is "
+            "faulty and behavior SLAM is faulty, which 'assume' rules out\n"
+            "  3:24-27 expected here\n");
+  EXPECT_EQ(findings_of_property("reachable: {faulty: [GPS]}", "{faults: {most: 1, of: [SLAM]}}"),
+            "3:24-27 warning impossible-expectation: this can never hold: behavior GPS is "
+            "faulty, which 'assume' rules out\n");
   EXPECT_EQ(
       findings_of_property("reachable: {faulty: [GPS]}", "{faults: {most: 1, except: [SLAM]}}"),
       "");
   EXPECT_EQ(findings_of_property("reachable: {faulty: [GPS]}"),
-            "3:24-27 warning impossible-expectation: this can never hold: no behavior becomes "
-            "faulty, as 'faults' of 'assume' is 0\n");
+            "3:24-27 warning impossible-expectation: this can never hold: behavior GPS is "
+            "faulty, which 'assume' rules out\n");
   EXPECT_EQ(findings_of_property("reachable: {situation: {SIGNAL: false, SLAM: false}}", assume),
             "");
-  EXPECT_EQ(
-      findings_of_property("reachable: {situation: {LIGHT: night, GPS: false}}", assume),
-      "3:27-32 warning impossible-expectation: this can never hold: 'LIGHT' never changes, as "
-      "'situation' of 'assume' does not list it\n"
-      "3:41-44 warning impossible-expectation: this can never hold: 'GPS' never changes, as "
-      "'situation' of 'assume' does not list it\n");
+  EXPECT_EQ(findings_of_property("reachable: {situation: {LIGHT: night, GPS: false}}", assume),
+            "3:27-32 warning impossible-expectation: this can never hold: LIGHT is night, "
+            "which 'assume' rules out\n"
+            "3:41-44 warning impossible-expectation: this can never hold: the situation "
+            "forbids GPS, which 'assume' rules out\n");
   EXPECT_EQ(findings_of_property("reachable: {requested: {LAND: 2, TALK: 0}}", assume), "");
   EXPECT_EQ(findings_of_property("reachable: {requested: {LAND: 3}}", assume),
             "3:27-31 warning impossible-expectation: this can never hold: 'start' of 'assume' "

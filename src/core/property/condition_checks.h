@@ -1,55 +1,50 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "ask/formula.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/property/properties.h"
-#include "core/property/property_reader.h"
-#include "core/script/expectation.h"
+#include "core/script/contradictions.h"
 #include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc {
 
-// What a condition of a property file says, with the places that say it, and what of it cannot hold
-// together.
+/// Finds what of the conditions of a property file can never hold. Parts that contradict one
+/// another are errors; so are the alternatives of an `any` if none of them can hold, and if some
+/// can, the others are warnings. What the catalog or the assumptions rule out is a warning, or a
+/// note where it is to be ruled out. Of very many alternatives only the first ones are looked at.
+class ConditionChecks {
+ public:
+  /// Both must outlive this object. `assumptions`: null if they have mistakes.
+  ConditionChecks(const CompiledCatalog& catalog, const Assumptions* assumptions);
 
-/// Parts of conditions that hold together.
-struct ConditionClaims {
-  struct Requested {
-    StateClaims::Task task;
-    std::int32_t priority = 0;
-  };
-  struct Situated {
-    StateCondition::Situated part;
-    Range range;  ///< of the name of the variable
-  };
-  struct Own {
-    SituationPart::Own part;
-    Range range;  ///< of the name of the behavior
-  };
-  StateClaims values;  ///< of tasks
-  std::vector<StateClaims::Behavior> faulty;
-  std::vector<Range> none_faulty;  ///< of what says that no behavior is faulty
-  std::vector<StateClaims::Behavior> available;
-  std::vector<Requested> requested;
-  std::vector<Situated> variables;
-  std::vector<Own> own;
+  /// `is_denied`: the condition is never to hold, so it is no mistake if the catalog rules it out.
+  void check(const StateCondition& condition, bool is_denied, Reporter& reporter);
+
+ private:
+  using Parts = Contradictions::Parts;
+
+  /// Why the condition can never hold with what holds around it; empty if it may, or if that is not
+  /// known. `is_doubted`: what holds around it is ruled out already.
+  [[nodiscard]] std::vector<Impossible> judge(const StateCondition& condition, Parts parts,
+                                              bool is_doubted);
+  void judge_alternatives(const StateCondition& condition, const Parts& parts, bool is_doubted,
+                          std::vector<Impossible>& found);
+  [[nodiscard]] std::vector<Impossible> doubts_about(Parts parts);
+  void add_doubtful_priorities(const Parts& parts, std::vector<Impossible>& found) const;
+  void report(const Standing& standing, const char* what, const Impossible& finding);
+
+  const CompiledCatalog& catalog_;
+  const Assumptions* const assumptions_;
+  const Contradictions contradictions_;
+  StateAsk any_;                     ///< states, whatever is assumed
+  std::optional<StateAsk> assumed_;  ///< those that the assumptions allow
+  // Of the present check:
+  Ground ground_ = Ground::catalog;
+  Reporter* reporter_ = nullptr;
 };
-
-/// A condition as it is written. `negated` and what stands in it may be impossible.
-struct WrittenCondition {
-  ConditionClaims claims;
-  std::vector<WrittenCondition> negated;
-  std::vector<WrittenCondition> any;
-  std::vector<WrittenCondition> all;
-};
-
-/// Reports what can never hold. Parts that contradict one another are errors; so are the
-/// alternatives of an `any` if none of them can hold, and if some can, the others are warnings.
-/// What the catalog or the assumptions rule out is a warning, or a note where it is to be ruled
-/// out. Of very many alternatives only the first ones are looked at.
-void check_condition(const WrittenCondition& condition, const ConditionChecks& checks,
-                     const CompiledCatalog& catalog, Reporter& reporter);
 
 }  // namespace cbc

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/diagnostic/rules.h"
-#include "core/property/condition_checks.h"
 #include "core/property/property_reader.h"
 #include "core/script/expectation.h"
 #include "core/yaml/values.h"
@@ -26,8 +25,9 @@ class ConditionReader {
       : names_(names), catalog_(names.catalog()), reporter_(reporter) {}
 
   /// `depth`: in how many others it stands.
-  WrittenCondition read(const Node& node, std::string_view what, std::size_t depth = 0) {
-    WrittenCondition condition;
+  StateCondition read(const Node& node, std::string_view what, std::size_t depth = 0) {
+    StateCondition condition;
+    condition.range = node.range;
     if (yaml::read_mapping(node, what, "a mapping", reporter_) == nullptr) return condition;
     if (depth > most_nested_conditions) {
       reporter_.report(rule::invalid_value, node.range,
@@ -37,33 +37,13 @@ class ConditionReader {
     }
     Fields fields(node, shape::condition, reporter_);
     bool is_empty = true;
-    const auto find = [&](std::string_view key) {
-      const Node* const part = fields.find(key);
-      is_empty &= part == nullptr;
-      return part;
-    };
-    ConditionClaims& claims = condition.claims;
-    if (const Node* part = find("running")) claims.values.running = read_running_part(*part);
-    if (const Node* part = find("stopped")) claims.values.stopped = read_tasks(*part, "stopped");
-    if (const Node* part = find("active")) {
-      claims.values.active = read_behaviors(*part, "active");
-      StateClaims::Only& only = claims.values.only_active.emplace_back();
-      only.range = fields.range_of("active");
-      for (const auto& behavior : claims.values.active) only.behaviors.push_back(behavior.id);
-    }
-    if (const Node* part = find("active_includes")) {
-      claims.values.active = read_behaviors(*part, "active_includes");
+    for (const auto& [key, read_value] : values) {
+      const Node* const value = fields.find(key);
+      if (value == nullptr) continue;
+      is_empty = false;
+      (this->*read_value)(*value, {key, fields.range_of(key), depth + 1}, condition.parts);
     }
     check_active_keys(fields, reporter_);
-    if (const Node* part = find("faulty")) read_faulty(*part, fields.range_of("faulty"), claims);
-    if (const Node* part = find("available")) {
-      claims.available = read_behaviors(*part, "available");
-    }
-    if (const Node* part = find("requested")) read_requested(*part, claims);
-    if (const Node* part = find("situation")) read_situation_part(*part, claims);
-    if (const Node* part = find("not")) condition.negated.push_back(read(*part, "not", depth + 1));
-    if (const Node* part = find("any")) condition.any = read_conditions(*part, "any", depth);
-    if (const Node* part = find("all")) condition.all = read_conditions(*part, "all", depth);
     const std::size_t errors = reporter_.errors();
     fields.report_unknown(yaml::UnknownKeys::refused);
     if (is_empty && reporter_.errors() == errors) {
@@ -92,62 +72,77 @@ class ConditionReader {
     return false;
   }
 
-  std::vector<WrittenCondition> read_conditions(const Node& node, std::string_view what,
-                                                std::size_t depth) {
-    std::vector<WrittenCondition> conditions;
-    if (!read_items(node, what, "a list of conditions")) return conditions;
-    for (const Node* item : node.items) conditions.push_back(read(*item, what, depth + 1));
-    return conditions;
-  }
+  /// The key of a value, and in how many others the conditions in it stand.
+  struct Place {
+    std::string_view key;
+    Range range;
+    std::size_t depth = 0;
+  };
+  using Conditions = std::vector<StateCondition>;
 
-  std::vector<StateClaims::Running> read_running_part(const Node& node) {
+  void read_running_part(const Node& node, const Place& /*place*/, Conditions& conditions) {
     constexpr std::string_view expected =
         "a list of tasks, or a mapping of tasks to behaviors or 'any'";
-    std::vector<StateClaims::Running> running;
-    if (!has_entries(node, "running", expected)) return running;
-    if (node.kind == Kind::mapping) return read_running(node, names_, reporter_);
+    if (!has_entries(node, "running", expected)) return;
+    if (node.kind == Kind::mapping) return read_running(node, names_, reporter_, conditions);
     if (node.kind != Kind::sequence) {
-      yaml::report_wrong_type(node, "running", expected, reporter_);
-      return running;
+      return yaml::report_wrong_type(node, "running", expected, reporter_);
     }
-    for (const StateClaims::Task& task : read_tasks(node, "running")) running.push_back({task, {}});
-    return running;
+    read_tasks(node, "running", StateCondition::Kind::running, conditions);
   }
 
-  std::vector<StateClaims::Task> read_tasks(const Node& node, std::string_view what) {
-    std::vector<StateClaims::Task> tasks;
-    if (!read_items(node, what, "a list of tasks")) return tasks;
+  void read_stopped(const Node& node, const Place& place, Conditions& conditions) {
+    read_tasks(node, place.key, StateCondition::Kind::stopped, conditions);
+  }
+
+  void read_tasks(const Node& node, std::string_view what, StateCondition::Kind kind,
+                  Conditions& conditions) {
+    if (!read_items(node, what, "a list of tasks")) return;
     ListedNames listed;
     for (const Node* item : node.items) {
       const auto task = names_.find_task(*item, what, reporter_, &node);
       if (!task || !listed.add(*task, *item, reporter_)) continue;
-      tasks.push_back({catalog_.task_ids[*task], item->range});
+      conditions.push_back(StateCondition::of_task(kind, catalog_.task_ids[*task]));
+      conditions.back().range = item->range;
     }
-    return tasks;
   }
 
-  std::vector<StateClaims::Behavior> read_behaviors(
-      const Node& node, std::string_view what, std::string_view expected = "a list of behaviors") {
-    std::vector<StateClaims::Behavior> behaviors;
-    if (!read_items(node, what, expected)) return behaviors;
+  void read_active(const Node& node, const Place& place, Conditions& conditions) {
+    StateCondition& only =
+        conditions.emplace_back(StateCondition{StateCondition::Kind::only_active});
+    only.range = place.range;
+    read_behaviors(node, "active", StateCondition::Kind::active, only.parts);
+  }
+  void read_active_includes(const Node& node, const Place& place, Conditions& conditions) {
+    read_behaviors(node, place.key, StateCondition::Kind::active, conditions);
+  }
+  void read_available(const Node& node, const Place& place, Conditions& conditions) {
+    read_behaviors(node, place.key, StateCondition::Kind::available, conditions);
+  }
+
+  void read_behaviors(const Node& node, std::string_view what, StateCondition::Kind kind,
+                      Conditions& conditions, std::string_view expected = "a list of behaviors") {
+    if (!read_items(node, what, expected)) return;
     ListedNames listed;
     for (const Node* item : node.items) {
       const auto behavior = names_.find_behavior(*item, what, reporter_, &node);
       if (!behavior || !listed.add(*behavior, *item, reporter_)) continue;
-      behaviors.push_back({catalog_.behavior_ids[*behavior], item->range});
+      conditions.push_back(StateCondition::of_behavior(kind, catalog_.behavior_ids[*behavior]));
+      conditions.back().range = item->range;
     }
-    return behaviors;
   }
 
-  void read_faulty(const Node& node, const Range& key, ConditionClaims& claims) {
+  void read_faulty(const Node& node, const Place& place, Conditions& conditions) {
     if (node.kind == Kind::scalar && node.text == "none") {
-      claims.none_faulty.push_back(key);
+      conditions.push_back(StateCondition{StateCondition::Kind::none_faulty});
+      conditions.back().range = place.range;
     } else {
-      claims.faulty = read_behaviors(node, "faulty", "a list of behaviors or 'none'");
+      read_behaviors(node, "faulty", StateCondition::Kind::faulty, conditions,
+                     "a list of behaviors or 'none'");
     }
   }
 
-  void read_requested(const Node& node, ConditionClaims& claims) {
+  void read_requested(const Node& node, const Place& /*place*/, Conditions& conditions) {
     constexpr std::string_view expected = "a mapping of tasks to priorities";
     if (!has_entries(node, "requested", expected)) return;
     if (yaml::read_mapping(node, "requested", expected, reporter_) == nullptr) return;
@@ -157,63 +152,67 @@ class ConditionReader {
       // A reactive start makes a request with priority 0.
       const auto priority = yaml::read_integer(*value, key->text, 0, reporter_);
       if (!task || !priority) continue;
-      claims.requested.push_back({{catalog_.task_ids[*task], key->range}, *priority});
+      conditions.push_back(StateCondition::requested(catalog_.task_ids[*task], *priority));
+      conditions.back().range = key->range;
     }
   }
 
-  void read_situation_part(const Node& node, ConditionClaims& claims) {
+  void read_situation_part(const Node& node, const Place& /*place*/, Conditions& conditions) {
     if (!has_entries(node, "situation", "a mapping of variables to values")) return;
     auto entries = read_possible_situation(node, names_, reporter_);
     if (!entries) return;
     for (SituationEntry& entry : *entries) {
-      if (entry.part.is_variable) {
-        claims.variables.push_back({{entry.part.place, std::move(entry.values)}, entry.range});
-      } else {
-        claims.own.push_back(
-            {{catalog_.behavior_ids[entry.part.place], entry.available}, entry.range});
-      }
+      conditions.push_back(
+          entry.part.is_variable
+              ? StateCondition::of_variable(entry.part.place, std::move(entry.values))
+              : StateCondition::own(catalog_.behavior_ids[entry.part.place], entry.available));
+      conditions.back().range = entry.range;
     }
   }
+
+  void read_not(const Node& node, const Place& place, Conditions& conditions) {
+    StateCondition inner = read(node, place.key, place.depth);
+    conditions.push_back(StateCondition::join(StateCondition::Kind::negated, {std::move(inner)}));
+    conditions.back().range = place.range;
+  }
+  void read_any(const Node& node, const Place& place, Conditions& conditions) {
+    read_conditions(node, place, StateCondition::Kind::any, conditions);
+  }
+  void read_all(const Node& node, const Place& place, Conditions& conditions) {
+    read_conditions(node, place, StateCondition::Kind::all, conditions);
+  }
+
+  void read_conditions(const Node& node, const Place& place, StateCondition::Kind kind,
+                       Conditions& conditions) {
+    if (!read_items(node, place.key, "a list of conditions")) return;
+    StateCondition& joined = conditions.emplace_back(StateCondition{kind});
+    joined.range = place.range;
+    for (const Node* item : node.items) {
+      joined.parts.push_back(read(*item, place.key, place.depth));
+    }
+  }
+
+  /// What reads the value of a key, and appends what it says.
+  struct Value {
+    std::string_view key;
+    void (ConditionReader::*read)(const Node&, const Place&, Conditions&);
+  };
+  static constexpr Value values[] = {{"running", &ConditionReader::read_running_part},
+                                     {"stopped", &ConditionReader::read_stopped},
+                                     {"active", &ConditionReader::read_active},
+                                     {"active_includes", &ConditionReader::read_active_includes},
+                                     {"requested", &ConditionReader::read_requested},
+                                     {"situation", &ConditionReader::read_situation_part},
+                                     {"available", &ConditionReader::read_available},
+                                     {"faulty", &ConditionReader::read_faulty},
+                                     {"not", &ConditionReader::read_not},
+                                     {"any", &ConditionReader::read_any},
+                                     {"all", &ConditionReader::read_all}};
 
   NameIndex& names_;
   const CompiledCatalog& catalog_;
   Reporter& reporter_;
 };
-
-StateCondition condition_of(const WrittenCondition& written) {
-  const auto ids = [](const auto& named) {
-    std::vector<decltype(named.front().id)> all;
-    all.reserve(named.size());
-    for (const auto& entry : named) all.push_back(entry.id);
-    return all;
-  };
-  const auto parts = [](const std::vector<WrittenCondition>& inner) {
-    std::vector<StateCondition> all;
-    all.reserve(inner.size());
-    for (const WrittenCondition& part : inner) all.push_back(condition_of(part));
-    return all;
-  };
-  const ConditionClaims& claims = written.claims;
-  StateCondition condition;
-  for (const StateClaims::Running& entry : claims.values.running) {
-    condition.running.push_back({entry.task.id, ids(entry.behaviors)});
-  }
-  condition.stopped = ids(claims.values.stopped);
-  condition.active = ids(claims.values.active);
-  condition.only_active = !claims.values.only_active.empty();
-  condition.faulty = ids(claims.faulty);
-  condition.none_faulty = !claims.none_faulty.empty();
-  condition.available = ids(claims.available);
-  for (const auto& entry : claims.requested) {
-    condition.requested.push_back({entry.task.id, entry.priority});
-  }
-  for (const auto& entry : claims.variables) condition.variables.push_back(entry.part);
-  for (const auto& entry : claims.own) condition.own.push_back(entry.part);
-  condition.negated = parts(written.negated);
-  condition.any = parts(written.any);
-  condition.all = parts(written.all);
-  return condition;
-}
 
 }  // namespace
 
@@ -226,13 +225,9 @@ SituationPart part_of(const Situation& situation, const CompiledCatalog& catalog
   return part;
 }
 
-StateCondition read_condition(const Node& node, std::string_view what,
-                              const ConditionChecks& checks, NameIndex& names, Reporter& reporter) {
-  const std::size_t errors = reporter.errors();
-  const WrittenCondition written = ConditionReader(names, reporter).read(node, what);
-  if (reporter.errors() > errors) return {};
-  check_condition(written, checks, names.catalog(), reporter);
-  return condition_of(written);
+StateCondition read_condition(const Node& node, std::string_view what, NameIndex& names,
+                              Reporter& reporter) {
+  return ConditionReader(names, reporter).read(node, what);
 }
 
 }  // namespace cbc

@@ -9,8 +9,8 @@
 namespace cbc {
 
 /// What the assumptions say of all states. They must outlive it.
-[[nodiscard]] PossibleStates limits_of(const CompiledCatalog& catalog,
-                                       const Assumptions& assumptions);
+[[nodiscard]] PossibleStates possible_states(const CompiledCatalog& catalog,
+                                             const Assumptions& assumptions);
 
 /// Whether the constraints alone decide that an always or never holds: no assignment of the groups
 /// that satisfies them, with behaviors that fit in one situation that may occur, breaks it, be it

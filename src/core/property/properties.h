@@ -11,6 +11,7 @@
 
 #include "ask/situation_space.h"
 #include "cbc/event.h"
+#include "core/script/condition.h"
 #include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc {
@@ -74,47 +75,9 @@ struct StatedAssumptions {
                                                         const std::vector<std::uint32_t>& variables,
                                                         std::uint32_t number);
 
-/// What a state satisfies: all parts together.
-struct StateCondition {
-  struct Running {
-    TaskId task;
-    std::vector<BehaviorId> behaviors;  ///< it runs with one of these; empty: any
-  };
-  struct Requested {
-    TaskId task;
-    std::int32_t priority = 1;  ///< the least priority of the request
-  };
-  /// A situation variable has one of some values.
-  struct Situated {
-    std::uint32_t variable = 0;
-    std::vector<std::uint32_t> values;  ///< distinct, in the order of the file
-  };
-  std::vector<Running> running;
-  std::vector<TaskId> stopped;
-  std::vector<BehaviorId> active;
-  bool only_active = false;  ///< no other behavior of the groups explored is active
-  std::vector<BehaviorId> faulty;
-  bool none_faulty = false;  ///< no behavior of the groups explored is faulty
-  std::vector<BehaviorId> available;
-  std::vector<Requested> requested;
-  std::vector<Situated> variables;
-  std::vector<SituationPart::Own> own;
-  std::vector<StateCondition> negated;  ///< none of these holds
-  std::vector<StateCondition> any;      ///< if there are some, one of these holds
-  std::vector<StateCondition> all;      ///< each of these holds
-};
-
 /// The most `not`, `any` and `all` that stand in one another.
 inline constexpr std::size_t most_nested_conditions = 16;
 
-/// Calls `visit` with the condition and all that stand in it.
-template <typename Visit>
-void for_each_condition(const StateCondition& condition, Visit&& visit) {
-  visit(condition);
-  for (const auto* inner : {&condition.negated, &condition.any, &condition.all}) {
-    for (const StateCondition& part : *inner) for_each_condition(part, visit);
-  }
-}
 /// Some of the moves of the assumptions, by their kinds (docs/verify.md, "Moves").
 struct MoveKinds {
   bool start = false;
@@ -171,7 +134,7 @@ struct Property {
   std::optional<std::uint32_t> within;  ///< of always_possible: the most moves
 };
 
-/// The conditions of a property, and those that stand in them.
+/// The conditions of a property, and all that stand in them.
 [[nodiscard]] std::vector<const StateCondition*> conditions_of(const Property& property);
 /// The situation variables that they name.
 [[nodiscard]] std::set<std::uint32_t> variables_of(const Property& property);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/diagnostic/rules.h"
+#include "core/property/condition_checks.h"
 #include "core/script/names.h"
 #include "runtime/base/text.h"
 
@@ -179,7 +180,7 @@ class PropertyReader {
       if (task) property.task = names_.catalog().task_ids[*task];
     } else {
       const bool is_denied = property.kind == Property::Kind::never;
-      property.condition = read_condition(value, key, {assumptions_, is_denied}, names_, reporter_);
+      property.condition = read_condition(value, key, is_denied);
     }
     if (const Node* priority = fields.find("priority")) {
       property.priority = yaml::read_integer(*priority, "priority", 1, reporter_).value_or(1);
@@ -206,7 +207,17 @@ class PropertyReader {
                                           Property::Kind kind) {
     const Node* node = fields.find(key);
     if (node == nullptr || !belongs(key, kind)) return std::nullopt;
-    return read_condition(*node, key, {assumptions_, false}, names_, reporter_);
+    return read_condition(*node, key, false);
+  }
+
+  /// `is_denied`: see ConditionChecks.
+  StateCondition read_condition(const Node& node, std::string_view what, bool is_denied) {
+    const std::size_t errors = reporter_.errors();
+    StateCondition condition = cbc::read_condition(node, what, names_, reporter_);
+    if (reporter_.errors() > errors) return {};
+    if (!checks_) checks_.emplace(names_.catalog(), assumptions_);
+    checks_->check(condition, is_denied, reporter_);
+    return condition;
   }
 
   MoveKinds read_by(const Node& node) {
@@ -289,6 +300,7 @@ class PropertyReader {
   NameIndex names_;
   Reporter& reporter_;
   const Assumptions* assumptions_ = nullptr;  ///< null if they have mistakes
+  std::optional<ConditionChecks> checks_;     ///< made for the first condition
 };
 
 }  // namespace
@@ -305,12 +317,9 @@ std::vector<const StateCondition*> conditions_of(const Property& property) {
 
 std::set<std::uint32_t> variables_of(const Property& property) {
   std::set<std::uint32_t> variables;
-  const auto add = [&variables](const StateCondition& condition) {
-    for (const StateCondition::Situated& part : condition.variables) {
-      variables.insert(part.variable);
-    }
-  };
-  for (const StateCondition* condition : conditions_of(property)) add(*condition);
+  for (const StateCondition* condition : conditions_of(property)) {
+    if (condition->variable != none) variables.insert(condition->variable);
+  }
   return variables;
 }
 

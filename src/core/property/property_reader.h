@@ -50,18 +50,9 @@ namespace cbc {
 [[nodiscard]] Assumptions read_assumptions(const yaml::Node* assume, const yaml::Node* initially,
                                            bool knows_all, NameIndex& names, Reporter& reporter);
 
-/// How conditions are checked.
-struct ConditionChecks {
-  /// What the states are like; null if that could not be read.
-  const Assumptions* assumptions = nullptr;
-  /// The condition is never to hold, so it is no mistake if the catalog rules it out.
-  bool is_denied = false;
-};
-
 /// Reads the condition that is the value of the key `what`. Mistakes are reported; the result may
 /// be used only if there was no error.
 [[nodiscard]] StateCondition read_condition(const yaml::Node& node, std::string_view what,
-                                            const ConditionChecks& checks, NameIndex& names,
-                                            Reporter& reporter);
+                                            NameIndex& names, Reporter& reporter);
 
 }  // namespace cbc

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/diagnostic/rules.h"
+#include "core/script/contradictions.h"
 #include "core/yaml/values.h"
 #include "runtime/base/text.h"
 
@@ -30,29 +31,22 @@ class ExpectationReader {
       out_.outcome = read_word<Outcome>(*outcome, "outcome", reporter_);
     }
     if (const Node* entries = fields.find("running")) {
-      claims_.running = read_running(*entries, names_, reporter_);
+      read_running(*entries, names_, reporter_, said_.parts);
+      for (const StateCondition& entry : said_.parts) add_running(entry);
     }
     if (const Node* stopped = fields.find("stopped")) read_stopped(*stopped);
     if (const Node* active = fields.find("active")) {
-      out_.active = read_active(*active, "active");
-      StateClaims::Only& only = claims_.only_active.emplace_back();
+      StateCondition only{StateCondition::Kind::only_active};
       only.range = fields.range_of("active");
-      for (const StateClaims::Behavior& entry : claims_.active) only.behaviors.push_back(entry.id);
+      out_.active = read_active(*active, "active", only.parts);
+      said_.parts.push_back(std::move(only));
     }
     if (const Node* active = fields.find("active_includes")) {
-      out_.active_includes = read_active(*active, "active_includes");
+      out_.active_includes = read_active(*active, "active_includes", said_.parts);
     }
     check_active_keys(fields, reporter_);
     fields.report_unknown(yaml::UnknownKeys::refused);
-    if (reporter_.errors() == errors) check_claims();
-    const CompiledCatalog& catalog = names_.catalog();
-    for (const StateClaims::Running& entry : claims_.running) {
-      auto& running = out_.running.emplace_back();
-      running.task = catalog.tasks[entry.task.id].catalog_index;
-      for (const StateClaims::Behavior& behavior : entry.behaviors) {
-        running.behaviors.push_back(catalog.behaviors[behavior.id].catalog_index);
-      }
-    }
+    if (reporter_.errors() == errors) check();
     return std::move(out_);
   }
 
@@ -60,44 +54,62 @@ class ExpectationReader {
   /// The script has a meaning even so.
   static constexpr Standing of_impossible{Severity::warning};
 
+  void add_running(const StateCondition& entry) {
+    const CompiledCatalog& catalog = names_.catalog();
+    auto& running = out_.running.emplace_back();
+    running.task = catalog.tasks[entry.task].catalog_index;
+    for (const BehaviorId behavior : entry.behaviors) {
+      running.behaviors.push_back(catalog.behaviors[behavior].catalog_index);
+    }
+  }
+
   void read_stopped(const Node& node) {
     if (yaml::read_list(node, "stopped", "a list of tasks", reporter_) == nullptr) return;
     for (const Node* item : node.items) {
       const auto task = names_.find_task(*item, "stopped", reporter_, &node);
       if (!task) continue;
       out_.stopped.push_back(*task);
-      claims_.stopped.push_back({names_.catalog().task_ids[*task], item->range});
+      said_.parts.push_back(
+          StateCondition::of_task(StateCondition::Kind::stopped, names_.catalog().task_ids[*task]));
+      said_.parts.back().range = item->range;
     }
   }
 
-  std::vector<std::uint32_t> read_active(const Node& node, std::string_view key) {
+  std::vector<std::uint32_t> read_active(const Node& node, std::string_view key,
+                                         std::vector<StateCondition>& conditions) {
     std::vector<std::uint32_t> behaviors;
     if (yaml::read_list(node, key, "a list of behaviors", reporter_) == nullptr) return behaviors;
     for (const Node* item : node.items) {
       const auto behavior = names_.find_behavior(*item, key, reporter_, &node);
       if (!behavior) continue;
       behaviors.push_back(*behavior);
-      claims_.active.push_back({names_.catalog().behavior_ids[*behavior], item->range});
+      conditions.push_back(StateCondition::of_behavior(StateCondition::Kind::active,
+                                                       names_.catalog().behavior_ids[*behavior]));
+      conditions.back().range = item->range;
     }
     return behaviors;
   }
 
-  void check_claims() {
-    bool is_possible = true;
-    const OnContradiction report = [&](const Range& range, const std::string& why,
-                                       std::vector<Note> notes) {
-      is_possible = false;
-      reporter_.report_as(of_impossible, rule::impossible_expectation, range,
-                          "this can never hold: " + why, std::move(notes));
-    };
-    find_contradictions(claims_, names_.catalog(), reporter_, report);
-    if (is_possible) find_ruled_out(claims_, names_.catalog(), reporter_, report);
+  void check() {
+    const Contradictions contradictions(names_.catalog());
+    Contradictions::Parts parts;
+    contradictions.add(said_, parts);
+    if (parts.empty()) return;
+    report(contradictions.take_misplaced(parts, Ground::catalog));
+    report(contradictions.find(parts, Ground::catalog, names_.states(), reporter_));
+  }
+
+  void report(const std::vector<Impossible>& findings) {
+    for (const Impossible& finding : findings) {
+      reporter_.report_as(of_impossible, rule::impossible_expectation, finding.range,
+                          "this can never hold: " + finding.text(), finding.notes);
+    }
   }
 
   NameIndex& names_;
   Reporter& reporter_;
   Expectation out_;
-  StateClaims claims_;
+  StateCondition said_;
 };
 
 }  // namespace
@@ -108,15 +120,14 @@ Expectation read_expectation(const Node& node, NameIndex& names, Reporter& repor
 
 namespace {
 
-/// A behavior, or several of them.
-std::vector<StateClaims::Behavior> read_performers(const Node& node, std::string_view task,
-                                                   NameIndex& names, Reporter& reporter) {
-  std::vector<StateClaims::Behavior> behaviors;
+/// Reads a behavior, or several of them, into a condition. False if there is none.
+bool read_performers(const Node& node, std::string_view task, NameIndex& names, Reporter& reporter,
+                     StateCondition& condition) {
   const std::vector<const Node*> single{&node};
   const bool is_list = node.kind == Kind::sequence;
   if (node.kind != Kind::scalar && (!is_list || node.items.empty())) {
     yaml::report_wrong_type(node, task, "a behavior, a list of behaviors or 'any'", reporter);
-    return behaviors;
+    return false;
   }
   ListedNames listed;
   for (const Node* item : is_list ? node.items : single) {
@@ -127,28 +138,29 @@ std::vector<StateClaims::Behavior> read_performers(const Node& node, std::string
     }
     const auto behavior = names.find_behavior(*item, task, reporter, is_list ? &node : nullptr);
     if (!behavior || !listed.add(*behavior, *item, reporter)) continue;
-    behaviors.push_back({names.catalog().behavior_ids[*behavior], item->range});
+    condition.behaviors.push_back(names.catalog().behavior_ids[*behavior]);
+    condition.behavior_ranges.push_back(item->range);
   }
-  return behaviors;
+  return !condition.behaviors.empty();
 }
 
 }  // namespace
 
-std::vector<StateClaims::Running> read_running(const Node& node, NameIndex& names,
-                                               Reporter& reporter) {
+void read_running(const Node& node, NameIndex& names, Reporter& reporter,
+                  std::vector<StateCondition>& conditions) {
   constexpr std::string_view expected = "a mapping of tasks to behaviors or 'any'";
-  std::vector<StateClaims::Running> running;
-  if (yaml::read_mapping(node, "running", expected, reporter) == nullptr) return running;
+  if (yaml::read_mapping(node, "running", expected, reporter) == nullptr) return;
   yaml::report_duplicate_keys(node, reporter);
   for (const auto& [key, value] : node.entries) {
     const auto task = names.find_task(*key, "running", reporter, &node);
+    StateCondition condition{StateCondition::Kind::running};
+    condition.range = key->range;
     const bool is_any = value->kind == Kind::scalar && value->text == "any";
-    auto behaviors = is_any ? std::vector<StateClaims::Behavior>()
-                            : read_performers(*value, key->text, names, reporter);
-    if (!task || (!is_any && behaviors.empty())) continue;
-    running.push_back({{names.catalog().task_ids[*task], key->range}, std::move(behaviors)});
+    if (!is_any && !read_performers(*value, key->text, names, reporter, condition)) continue;
+    if (!task) continue;
+    condition.task = names.catalog().task_ids[*task];
+    conditions.push_back(std::move(condition));
   }
-  return running;
 }
 
 void check_active_keys(const yaml::Fields& fields, Reporter& reporter) {

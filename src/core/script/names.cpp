@@ -98,6 +98,13 @@ std::optional<NameIndex::Part> NameIndex::find_part(const yaml::Node& node, Repo
   return std::nullopt;
 }
 
+StateAsk& NameIndex::states() {
+  if (states_ == nullptr) {
+    states_ = std::make_unique<StateAsk>(catalog_, PossibleStates{}, most_effort_of_assignments);
+  }
+  return *states_;
+}
+
 void NameIndex::pass_part(const yaml::Node& node) { (void)part_called(node.text, node); }
 
 std::optional<NameIndex::Part> NameIndex::part_called(std::string_view name,

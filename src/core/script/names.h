@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
+#include "ask/formula.h"
 #include "core/catalog/name_place.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/script/script.h"
@@ -49,6 +51,8 @@ class NameIndex {
   void pass_part(const yaml::Node& node);
 
   [[nodiscard]] const CompiledCatalog& catalog() const { return catalog_; }
+  /// Answers what states there may be; all questions share one effort.
+  [[nodiscard]] StateAsk& states();
 
  private:
   void note(NameKind kind, const yaml::Node& node) {
@@ -62,6 +66,7 @@ class NameIndex {
   std::optional<Suggestions> tasks_;
   std::optional<Suggestions> behaviors_;
   std::optional<Suggestions> parts_;
+  std::unique_ptr<StateAsk> states_;  ///< made for the first question
 };
 
 /// Reads one of the words of an enumeration.

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/support/wording.h"
-#include "core/words/condition_words.h"
 #include "core/words/layout.h"
 #include "runtime/base/text.h"
 
@@ -58,13 +57,6 @@ std::string place_in_catalog(const CompiledCatalog& catalog, std::uint32_t line)
 std::string describe_value(const CompiledCatalog& catalog, VariableValue value) {
   return fmt::format("{} is {}", printable(catalog.name_of_variable(value.variable)),
                      printable(catalog.name_of_value(value)));
-}
-
-std::string describe_running(const CompiledCatalog& catalog, TaskId task,
-                             std::span<const BehaviorId> behaviors) {
-  const std::string text = printable(catalog.name_of_task(task)) + " runs";
-  return behaviors.empty() ? text
-                           : text + " with " + list_with_or(names_of_behaviors(catalog, behaviors));
 }
 
 std::string describe_situation(const CompiledCatalog& catalog, const Situation& situation) {

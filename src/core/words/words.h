@@ -43,10 +43,6 @@ namespace cbc {
 /// "TARGET is near"
 [[nodiscard]] std::string describe_value(const CompiledCatalog& catalog, VariableValue value);
 
-/// "HOVER runs", "HOVER runs with HOVER_WITH_MPC or HOVER_WITH_PID". `behaviors`: empty: any.
-[[nodiscard]] std::string describe_running(const CompiledCatalog& catalog, TaskId task,
-                                           std::span<const BehaviorId> behaviors);
-
 /// " GPS unavailable, RADAR available, TARGET is near"
 [[nodiscard]] std::string describe_situation(const CompiledCatalog& catalog,
                                              const Situation& situation);

@@ -6,32 +6,81 @@ namespace cbc {
 
 StateTest::StateTest(const Model& model, const StateCondition& condition,
                      Environments& environments) {
-  for (const StateCondition::Running& running : condition.running) add_running(model, running);
-  for (const TaskId task : condition.stopped) {
-    add([](const Stepper& state, Part part) { return state.cells()[part.subject] == 0; },
-        model.find_task(task));
-  }
-  for (const BehaviorId behavior : condition.active) {
-    add([](const Stepper& state,
-           Part part) { return has_bit(state.active().data(), part.subject); },
-        model.find_behavior(behavior));
-  }
-  if (condition.only_active) add_others(model, condition.active);
-  for (const StateCondition::Requested& requested : condition.requested) {
-    add([](const Stepper& state,
-           Part part) { return state.request_of(part.subject) >= part.wanted; },
-        model.find_task(requested.task), model.rank_of(requested.priority) + 1U);
-  }
-  add_environments(model, condition, environments);
-  for (const StateCondition& part : condition.negated)
-    negated_.emplace_back(model, part, environments);
-  for (const StateCondition& part : condition.any) any_.emplace_back(model, part, environments);
-  for (const StateCondition& part : condition.all) all_.emplace_back(model, part, environments);
+  add(model, condition, environments);
 }
 
-void StateTest::add_running(const Model& model, const StateCondition::Running& running) {
+void StateTest::add(const Model& model, const StateCondition& condition,
+                    Environments& environments) {
+  using Kind = StateCondition::Kind;
+  Diagrams& sets = environments.sets();
+  switch (condition.kind) {
+    case Kind::all:
+      for (const StateCondition& part : condition.parts) add(model, part, environments);
+      break;
+    case Kind::any:
+      any_.emplace_back();
+      for (const StateCondition& part : condition.parts) {
+        any_.back().emplace_back(model, part, environments);
+      }
+      break;
+    case Kind::negated:
+      negated_.emplace_back(model, condition.parts.front(), environments);
+      break;
+    case Kind::running:
+      add_running(model, condition);
+      break;
+    case Kind::stopped:
+      add([](const Stepper& state, Part part) { return state.cells()[part.subject] == 0; },
+          model.find_task(condition.task));
+      break;
+    case Kind::active:
+      add([](const Stepper& state,
+             Part part) { return has_bit(state.active().data(), part.subject); },
+          model.find_behavior(condition.behavior));
+      break;
+    case Kind::only_active:
+      for (const StateCondition& part : condition.parts) add(model, part, environments);
+      add_others(model, condition);
+      break;
+    case Kind::requested:
+      add([](const Stepper& state,
+             Part part) { return state.request_of(part.subject) >= part.wanted; },
+          model.find_task(condition.task), model.rank_of(condition.priority) + 1U);
+      break;
+    case Kind::variable: {
+      const std::uint32_t variable = model.find_variable(condition.variable);
+      Set one_of = Diagrams::empty;
+      for (const std::uint32_t value : condition.values) {
+        one_of = sets.either(one_of, environments.with_value(variable, value));
+      }
+      demand(one_of, sets);
+      break;
+    }
+    case Kind::own: {
+      const Set denied = environments.denied(model.find_behavior(condition.behavior));
+      demand(condition.wanted ? sets.complement(denied) : denied, sets);
+      break;
+    }
+    case Kind::faulty:
+      demand(environments.faulty(model.find_behavior(condition.behavior)), sets);
+      break;
+    case Kind::none_faulty:
+      // From the last bit to the first, which keeps each step small.
+      for (std::size_t behavior = model.behaviors().size(); behavior-- > 0;) {
+        const auto number = static_cast<std::uint32_t>(behavior);
+        demand(sets.complement(environments.faulty(number)), sets);
+      }
+      break;
+    case Kind::available:
+      demand(environments.available(model.find_behavior(condition.behavior)), sets);
+      break;
+  }
+}
+
+void StateTest::add_running(const Model& model, const StateCondition& running) {
   const std::uint32_t task = model.find_task(running.task);
-  if (running.behaviors.empty()) {
+  const auto& listed = running.behaviors;
+  if (listed.empty()) {
     add([](const Stepper& state, Part part) { return state.cells()[part.subject] != 0; }, task);
     return;
   }
@@ -39,50 +88,21 @@ void StateTest::add_running(const Model& model, const StateCondition::Running& r
   auto& wanted = values_.emplace_back();
   for (std::uint32_t value = values.begin; value < values.end; ++value) {
     const BehaviorId behavior = model.behaviors()[model.behavior_of(value)].id;
-    const auto& listed = running.behaviors;
     if (std::find(listed.begin(), listed.end(), behavior) != listed.end()) wanted.push_back(value);
   }
 }
 
 /// The behaviors that are not listed are not active.
-void StateTest::add_others(const Model& model, const std::vector<BehaviorId>& listed) {
+void StateTest::add_others(const Model& model, const StateCondition& only_active) {
   for (std::uint32_t behavior = 0; behavior < model.behaviors().size(); ++behavior) {
-    const BehaviorId id = model.behaviors()[behavior].id;
-    if (std::find(listed.begin(), listed.end(), id) != listed.end()) continue;
+    const bool is_listed = std::any_of(only_active.parts.begin(), only_active.parts.end(),
+                                       [&](const StateCondition& part) {
+                                         return part.behavior == model.behaviors()[behavior].id;
+                                       });
+    if (is_listed) continue;
     add([](const Stepper& state,
            Part part) { return !has_bit(state.active().data(), part.subject); },
         behavior);
-  }
-}
-
-void StateTest::add_environments(const Model& model, const StateCondition& condition,
-                                 Environments& environments) {
-  Diagrams& sets = environments.sets();
-  const auto demand = [&](Set set) { in_environment_ = sets.both(in_environment_, set); };
-  for (const StateCondition::Situated& situated : condition.variables) {
-    const std::uint32_t variable = model.find_variable(situated.variable);
-    Set one_of = Diagrams::empty;
-    for (const std::uint32_t value : situated.values) {
-      one_of = sets.either(one_of, environments.with_value(variable, value));
-    }
-    demand(one_of);
-  }
-  for (const SituationPart::Own& own : condition.own) {
-    const Set denied = environments.denied(model.find_behavior(own.behavior));
-    demand(own.available ? sets.complement(denied) : denied);
-  }
-  for (const BehaviorId behavior : condition.faulty) {
-    demand(environments.faulty(model.find_behavior(behavior)));
-  }
-  if (condition.none_faulty) {
-    // From the last bit to the first, which keeps each step small.
-    for (std::size_t behavior = model.behaviors().size(); behavior-- > 0;) {
-      const auto number = static_cast<std::uint32_t>(behavior);
-      demand(sets.complement(environments.faulty(number)));
-    }
-  }
-  for (const BehaviorId behavior : condition.available) {
-    demand(environments.available(model.find_behavior(behavior)));
   }
 }
 
@@ -100,14 +120,15 @@ StateTest::Set StateTest::holds_in(const Stepper& control, Diagrams& sets) const
     if (set == Diagrams::empty) return set;
     set = sets.without(set, part.holds_in(control, sets));
   }
-  for (const StateTest& part : all_) {
+  for (const std::vector<StateTest>& alternatives : any_) {
     if (set == Diagrams::empty) return set;
-    set = sets.both(set, part.holds_in(control, sets));
+    Set one_of = Diagrams::empty;
+    for (const StateTest& part : alternatives) {
+      one_of = sets.either(one_of, part.holds_in(control, sets));
+    }
+    set = sets.both(set, one_of);
   }
-  if (any_.empty() || set == Diagrams::empty) return set;
-  Set one_of = Diagrams::empty;
-  for (const StateTest& part : any_) one_of = sets.either(one_of, part.holds_in(control, sets));
-  return sets.both(set, one_of);
+  return set;
 }
 
 }  // namespace cbc

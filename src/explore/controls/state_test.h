@@ -24,8 +24,9 @@ class StateTest {
   template <typename Keep>
   void for_each_kept(Keep&& keep) const {
     keep(in_environment_);
-    for (const auto* parts : {&negated_, &any_, &all_}) {
-      for (const StateTest& part : *parts) part.for_each_kept(keep);
+    for (const StateTest& part : negated_) part.for_each_kept(keep);
+    for (const std::vector<StateTest>& alternatives : any_) {
+      for (const StateTest& part : alternatives) part.for_each_kept(keep);
     }
   }
 
@@ -46,17 +47,16 @@ class StateTest {
   void add(bool (*test)(const Stepper&, Part), std::uint32_t subject, std::uint32_t wanted = 0) {
     tests_.push_back({test, {subject, wanted}});
   }
-  void add_running(const Model& model, const StateCondition::Running& running);
-  void add_others(const Model& model, const std::vector<BehaviorId>& listed);
-  void add_environments(const Model& model, const StateCondition& condition,
-                        Environments& environments);
+  void add(const Model& model, const StateCondition& condition, Environments& environments);
+  void add_running(const Model& model, const StateCondition& running);
+  void add_others(const Model& model, const StateCondition& only_active);
+  void demand(Set set, Diagrams& sets) { in_environment_ = sets.both(in_environment_, set); }
 
   std::vector<Test> tests_;                         ///< of the control: all of them hold
   std::vector<std::vector<std::uint32_t>> values_;  ///< of the control: it has one of each list
   Set in_environment_ = Diagrams::all;              ///< parts of the environment
   std::vector<StateTest> negated_;
-  std::vector<StateTest> any_;
-  std::vector<StateTest> all_;
+  std::vector<std::vector<StateTest>> any_;  ///< one of each list holds
 };
 
 }  // namespace cbc

@@ -194,12 +194,11 @@ void add_all_tasks(const Model& model, std::set<TaskId>& tasks) {
 void add_tasks(const Model& model, const StateCondition& condition, std::set<TaskId>& tasks) {
   const CompiledCatalog& catalog = model.catalog();
   for_each_condition(condition, [&](const StateCondition& part) {
-    if (part.only_active) add_all_tasks(model, tasks);
-    for (const auto& running : part.running) tasks.insert(running.task);
-    for (const TaskId task : part.stopped) tasks.insert(task);
-    for (const auto& requested : part.requested) tasks.insert(requested.task);
-    for (const BehaviorId behavior : part.active) {
-      for (const ValueId value : catalog.performs[behavior]) tasks.insert(catalog.task_of(value));
+    if (part.kind == StateCondition::Kind::only_active) add_all_tasks(model, tasks);
+    if (part.task != none) tasks.insert(part.task);
+    if (part.kind != StateCondition::Kind::active) return;
+    for (const ValueId value : catalog.performs[part.behavior]) {
+      tasks.insert(catalog.task_of(value));
     }
   });
 }

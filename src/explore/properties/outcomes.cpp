@@ -118,12 +118,15 @@ Property property_of(const CompiledCatalog& catalog, GroupId group,
   for (TaskId task = catalog.group_tasks[group]; task < catalog.group_tasks[group + 1]; ++task) {
     stopped.insert(task);
   }
+  std::vector<StateCondition>& parts = property.condition.parts;
   for (const auto& [task, behavior] : outcome.running) {
-    property.condition.running.push_back(
-        {catalog.task_ids[task], {catalog.behavior_ids[behavior]}});
+    parts.push_back(StateCondition::of_task(StateCondition::Kind::running, catalog.task_ids[task],
+                                            {catalog.behavior_ids[behavior]}));
     stopped.erase(catalog.task_ids[task]);
   }
-  property.condition.stopped.assign(stopped.begin(), stopped.end());
+  for (const TaskId task : stopped) {
+    parts.push_back(StateCondition::of_task(StateCondition::Kind::stopped, task));
+  }
   return property;
 }
 

@@ -21,23 +21,14 @@ namespace {
 
 void add_groups(const CompiledCatalog& catalog, const StateCondition& condition,
                 std::set<GroupId>& groups) {
-  const auto add_task = [&](TaskId task) { groups.insert(catalog.tasks[task].group); };
-  const auto add_behavior = [&](BehaviorId behavior) { groups.insert(catalog.group_of(behavior)); };
-  for (const auto& running : condition.running) add_task(running.task);
-  for (const TaskId task : condition.stopped) add_task(task);
-  for (const auto& requested : condition.requested) add_task(requested.task);
-  for (const BehaviorId behavior : condition.active) add_behavior(behavior);
-  for (const BehaviorId behavior : condition.faulty) add_behavior(behavior);
-  for (const BehaviorId behavior : condition.available) add_behavior(behavior);
-  for (const auto& own : condition.own) add_behavior(own.behavior);
+  if (condition.task != none) groups.insert(catalog.tasks[condition.task].group);
+  if (condition.behavior != none) groups.insert(catalog.group_of(condition.behavior));
 }
 
-void add_groups_of_variables(const CompiledCatalog& catalog, const StateCondition& condition,
-                             std::set<GroupId>& groups) {
-  for (const StateCondition::Situated& situated : condition.variables) {
-    for (const FittingValue& fitting : catalog.fitting_values) {
-      if (fitting.variable == situated.variable) groups.insert(catalog.group_of(fitting.behavior));
-    }
+void add_groups_of_variable(const CompiledCatalog& catalog, std::uint32_t variable,
+                            std::set<GroupId>& groups) {
+  for (const FittingValue& fitting : catalog.fitting_values) {
+    if (fitting.variable == variable) groups.insert(catalog.group_of(fitting.behavior));
   }
 }
 
@@ -55,12 +46,13 @@ PropertyScope scope_of(const CompiledCatalog& catalog, const Property& property)
   for (const StateCondition* condition : conditions) add_groups(catalog, *condition, groups);
   if (groups.empty()) {
     for (const StateCondition* condition : conditions) {
-      add_groups_of_variables(catalog, *condition, groups);
+      add_groups_of_variable(catalog, condition->variable, groups);
     }
   }
   const bool is_about_faults =
-      std::any_of(conditions.begin(), conditions.end(),
-                  [](const StateCondition* condition) { return condition->none_faulty; });
+      std::any_of(conditions.begin(), conditions.end(), [](const StateCondition* condition) {
+        return condition->kind == StateCondition::Kind::none_faulty;
+      });
   if (groups.empty() && is_about_faults) {
     for (GroupId group(0); group < catalog.group_count(); ++group) groups.insert(group);
   }

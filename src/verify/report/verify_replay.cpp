@@ -33,14 +33,15 @@ namespace {
 /// What a condition demands to run, as far as an expectation can say it.
 void add_demand(const CompiledCatalog& catalog, const StateCondition& condition,
                 Expectation& demand) {
-  for (const auto& [task, behaviors] : condition.running) {
-    auto& running = demand.running.emplace_back();
-    running.task = catalog.tasks[task].catalog_index;
-    for (const BehaviorId behavior : behaviors) {
-      running.behaviors.push_back(catalog.behaviors[behavior].catalog_index);
-    }
+  if (condition.kind == StateCondition::Kind::all) {
+    for (const StateCondition& part : condition.parts) add_demand(catalog, part, demand);
   }
-  for (const StateCondition& part : condition.all) add_demand(catalog, part, demand);
+  if (condition.kind != StateCondition::Kind::running) return;
+  auto& running = demand.running.emplace_back();
+  running.task = catalog.tasks[condition.task].catalog_index;
+  for (const BehaviorId behavior : condition.behaviors) {
+    running.behaviors.push_back(catalog.behaviors[behavior].catalog_index);
+  }
 }
 
 /// What a property demands of the last state.

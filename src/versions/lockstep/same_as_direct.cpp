@@ -133,7 +133,7 @@ class MissingSearch {
       for (const BehaviorId behavior : missing) {
         Property& property = properties.emplace_back();
         property.kind = Property::Kind::reachable;
-        property.condition.active.push_back(behavior);
+        property.condition = StateCondition::of_behavior(StateCondition::Kind::active, behavior);
       }
       std::vector<const Property*> asked;
       asked.reserve(properties.size());

@@ -341,12 +341,14 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
   for (const TimeDifference& difference : differences) {
     Property property;
     property.kind = Property::Kind::reachable;
-    property.condition.running = {
-        {catalog_.task_ids[difference.task], {catalog_.behavior_ids[difference.behavior]}}};
+    property.condition.parts = {
+        StateCondition::of_task(StateCondition::Kind::running, catalog_.task_ids[difference.task],
+                                {catalog_.behavior_ids[difference.behavior]})};
     // Alone it is not hidden by others that time out before.
     Property& alone = properties.emplace_back(property);
     for (const TaskIndex task : find_sooner(source_, catalog_, difference)) {
-      alone.condition.stopped.push_back(catalog_.task_ids[task]);
+      alone.condition.parts.push_back(
+          StateCondition::of_task(StateCondition::Kind::stopped, catalog_.task_ids[task]));
     }
     properties.push_back(std::move(property));
   }
