@@ -60,9 +60,7 @@ std::vector<Reason> take_requirements_below(const CompiledCatalog& catalog, Task
       if (reason.kind != Reason::Kind::requires_task && reason.kind != Reason::Kind::situation) {
         return false;
       }
-      const auto values = catalog.performs[reason.behavior];
-      return std::any_of(values.begin(), values.end(),
-                         [&](ValueId value) { return catalog.task_of(value) == above; });
+      return catalog.can_perform(reason.behavior, above);
     };
     const auto rest = std::stable_partition(
         reasons.begin(), reasons.end(), [&](const Reason& reason) { return !is_of_it(reason); });

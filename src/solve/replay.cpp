@@ -57,7 +57,9 @@ class Replay {
     of_coordinator.timeouts = header->timeouts;
     EventStream stream(
         catalog_, {}, [this](const EventStream::Line& line) { take(line); }, [](const Failure&) {});
-    Runner runner(catalog_, of_coordinator, stream,
+    RunListener* listener = &answers_;
+    if (options_.html) listener = &stream;
+    Runner runner(catalog_, of_coordinator, *listener,
                   options_.html ? questions_of(options_, catalog_) : Questions());
     if (state) {
       runner.resume(*state);
@@ -77,7 +79,6 @@ class Replay {
  private:
   void take(const EventStream::Line& line) {
     answers_.on_event(line.record, line.step, line.state);
-    if (!options_.html) return;
     if (page_.events.size() >= HtmlReport::most_data) {
       ++page_.left_out;
     } else {

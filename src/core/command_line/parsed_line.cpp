@@ -38,11 +38,15 @@ std::string describe_unknown_option(const Program& program, const Command* comma
 /// unfinished: the words that it cannot place are left over.
 class Splitter {
  public:
-  explicit Splitter(const Program& program) {
+  /// For lines of these words. Options of commands that they do not name are left out.
+  Splitter(const Program& program, const std::vector<std::string>& words) {
     app_.require_subcommand(0, 1);
     declare(program.itself(), app_);
     for (const Command& command : program.commands()) {
-      declare(command, *app_.add_subcommand(command.name()));
+      CLI::App& app = *app_.add_subcommand(command.name());
+      if (std::find(words.begin(), words.end(), command.name()) != words.end()) {
+        declare(command, app);
+      }
     }
   }
 
@@ -188,7 +192,7 @@ bool ParsedLine::has(const Command& of, const std::string& other) const {
 ParsedLine parse(const Program& program, const std::vector<std::string>& words) {
   const auto separator = std::find(words.begin(), words.end(), "--");
   const std::vector<std::string> before(words.begin(), separator);
-  Splitter splitter(program);
+  Splitter splitter(program, before);
   const bool lacks_value = splitter.split(before);
   ParsedLine line;
   line.has_separator = separator != words.end();

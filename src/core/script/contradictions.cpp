@@ -43,12 +43,6 @@ std::string describe_misplaced(const CompiledCatalog& catalog, BehaviorId behavi
                 quote(catalog.name_of_task(task)), ", it performs ", tasks);
 }
 
-bool performs(const CompiledCatalog& catalog, BehaviorId behavior, TaskId task) {
-  const auto performed = catalog.performs[behavior];
-  return std::any_of(performed.begin(), performed.end(),
-                     [&](ValueId value) { return catalog.task_of(value) == task; });
-}
-
 /// What to add where nothing performs a task.
 std::string but_nothing_performs(const CompiledCatalog& catalog, TaskId task) {
   return catalog.values[task].empty() ? ", but no behavior performs it" : "";
@@ -122,7 +116,7 @@ std::vector<Impossible> Contradictions::take_misplaced(Parts& parts, Ground grou
     if (condition.kind != StateCondition::Kind::running || condition.behaviors.empty())
       return false;
     const auto is_misplaced = [&](BehaviorId behavior) {
-      return !performs(catalog_, behavior, condition.task);
+      return !catalog_.can_perform(behavior, condition.task);
     };
     const auto& listed = condition.behaviors;
     const bool are_all = std::all_of(listed.begin(), listed.end(), is_misplaced);

@@ -215,9 +215,7 @@ class Chain {
       return visited_.contains(other) || !reachable_.contains(other);
     }
     if (reason.behavior == none) return reason.task == task;
-    const auto values = catalog_.performs[reason.behavior];
-    return std::any_of(values.begin(), values.end(),
-                       [&](ValueId value) { return catalog_.task_of(value) == task; });
+    return catalog_.can_perform(reason.behavior, task);
   }
 
   void tell_about(TaskId task, std::size_t depth) {

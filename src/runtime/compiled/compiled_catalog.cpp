@@ -31,6 +31,12 @@ std::optional<std::uint32_t> CompiledCatalog::find_variable(std::string_view nam
   return std::nullopt;
 }
 
+bool CompiledCatalog::can_perform(BehaviorId behavior, TaskId task) const {
+  const auto performed = performs[behavior];
+  return std::any_of(performed.begin(), performed.end(),
+                     [&](ValueId value) { return task_of(value) == task; });
+}
+
 std::optional<std::uint32_t> CompiledCatalog::find_value(std::uint32_t variable,
                                                          std::string_view text) const {
   for (std::uint32_t value = 0; value < variables[variable].value_count; ++value) {

@@ -281,6 +281,8 @@ struct CompiledCatalog : CatalogArrays<View, Rows> {
 
   /// The task that a value is of.
   [[nodiscard]] TaskId task_of(ValueId value) const { return value_tasks[value]; }
+  /// Whether a behavior performs a task, however well.
+  [[nodiscard]] bool can_perform(BehaviorId behavior, TaskId task) const;
   /// The group of a behavior, which is that of all its tasks.
   [[nodiscard]] GroupId group_of(BehaviorId behavior) const {
     return tasks[task_of(performs[behavior].front())].group;

@@ -73,7 +73,7 @@ class AttributeComparison {
   void compare_timeouts(TaskId of_old, TaskId of_new) {
     for (const Value& value : new_.values[of_new]) {
       const BehaviorId behavior = to_old_.behaviors[value.behavior];
-      if (behavior == none || !performs(behavior, of_old)) continue;
+      if (behavior == none || !old_.can_perform(behavior, of_old)) continue;
       const Microseconds before = timeout_of(old_, of_old, behavior);
       const Microseconds after = timeout_of(new_, of_new, value.behavior);
       if (before == after) continue;
@@ -83,11 +83,6 @@ class AttributeComparison {
           is_of_task ? new_.name_of_task(of_new) : new_.name_of_behavior(value.behavior), "timeout",
           unless_zero(before), unless_zero(after));
     }
-  }
-  [[nodiscard]] bool performs(BehaviorId behavior, TaskId task) const {
-    const auto values = old_.performs[behavior];
-    return std::any_of(values.begin(), values.end(),
-                       [&](ValueId value) { return old_.task_of(value) == task; });
   }
 
   const CompiledCatalog& old_;
