@@ -96,13 +96,14 @@ SituationSplits::Split SituationSplits::choose_split(const ValueSets& sets,
   return best;
 }
 
-Feasibility Ask::find(const Asked& question, const ValueSets& sets) {
+Feasibility Ask::find(const Asked& question, const ValueSets& sets,
+                      AssignmentSearch::Wanted wanted) {
   found_.resize(question.size());
   return situations_.find(sets, [&](const ValueSets& part, BehaviorSet& active) {
     for (std::size_t place = 0; place < question.size(); ++place) {
       const GroupDemands& demanded = question[place];
       const Feasibility answer =
-          search_.find(demanded.group, demanded.demands, found_[place], {&space_, &part});
+          search_.find(demanded.group, demanded.demands, found_[place], {&space_, &part}, wanted);
       if (answer != Feasibility::yes) return answer;
       const TaskId task = search_.catalog().group_tasks[demanded.group];
       const BehaviorSet of_group = behaviors_of(search_.catalog(), task, found_[place]);

@@ -84,8 +84,10 @@ class Ask {
   Ask(AssignmentSearch& search, const SituationSpace& space)
       : search_(search), space_(space), situations_(space) {}
 
-  /// In one of the situations that has values of the sets.
-  [[nodiscard]] Feasibility find(const Asked& question, const ValueSets& sets);
+  /// In one of the situations that has values of the sets. The best assignments can be asked for
+  /// where these are of one situation.
+  [[nodiscard]] Feasibility find(const Asked& question, const ValueSets& sets,
+                                 AssignmentSearch::Wanted wanted = AssignmentSearch::Wanted::any);
   [[nodiscard]] Feasibility find(const Asked& question) { return find(question, space_.all()); }
 
   // What was found:

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -30,8 +29,6 @@ namespace cbc::cli {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Makes the folder of --scripts, and looks whether the other outputs can be written. All has been
 /// read. Returns the exit status, and prints what is wrong.
 int prepare_outputs(const VerifyOptions& options) {
@@ -55,15 +52,14 @@ class Call {
     result_.text = questions_.catalog->text;
     result_.limits = options.limits.budget();
     result_.limits.is_stopped = [this] { return signals_.have_come(); };
-    result_.wants_cut_sets = !options.cut_sets.empty();
   }
 
   int run() {
     if (const int status = check(); status != exit_ok) return status;
     explore();
     if (const std::string error = first_error(); !error.empty()) return complain(error);
-    find_cut_sets();
-    if (options_.effects) find_effects();
+    find_single_faults();
+    if (options_.effects || wants_cut_sets()) find_effects();
     if (options_.overrides) {
       if (const int status = find_overrides(); status != exit_ok) return status;
     }
@@ -137,12 +133,12 @@ class Call {
     if (format.needs_effects && !options_.effects) {
       return usage_error("verify", "--format {} needs --effects", options_.format);
     }
-    const char* const takes_one_file = result_.wants_cut_sets ? "--cut-sets"
-                                       : options_.effects     ? "--effects"
-                                       : options_.overrides   ? "--overrides"
-                                       : options_.outcomes    ? "--outcomes"
-                                       : options_.same_as     ? "--same-as"
-                                                              : nullptr;
+    const char* const takes_one_file = wants_cut_sets()     ? "--cut-sets"
+                                       : options_.effects   ? "--effects"
+                                       : options_.overrides ? "--overrides"
+                                       : options_.outcomes  ? "--outcomes"
+                                       : options_.same_as   ? "--same-as"
+                                                            : nullptr;
     if (takes_one_file != nullptr && questions_.files.size() > 1) {
       return usage_error("verify", "{} takes at most one property file, found {}", takes_one_file,
                          questions_.files.size());
@@ -191,6 +187,8 @@ class Call {
     return {catalog_, result_.situation, result_.never};
   }
 
+  [[nodiscard]] bool wants_cut_sets() const { return !options_.cut_sets.empty(); }
+
   /// Whether property files only say what is assumed.
   [[nodiscard]] bool asks_only_otherwise() const { return options_.effects || options_.overrides; }
 
@@ -229,7 +227,7 @@ class Call {
 
   void explore() {
     if (asks_only_otherwise()) return;
-    const bool asks_otherwise = result_.wants_cut_sets || options_.same_as;
+    const bool asks_otherwise = wants_cut_sets() || options_.same_as;
     if (questions_.files.empty() && asks_otherwise) return;
     Progress progress("exploring", count_explorations());
     ExplorationOptions of_verification;
@@ -283,40 +281,49 @@ class Call {
     return {};
   }
 
-  void find_cut_sets() {
-    const SituationSpace in = situations();
-    for (const TaskId task : cut_tasks_) {
-      result_.cut_sets.push_back(cut_sets_of(task, options_.order.value_or(2), in, Clock::now()));
-    }
+  /// Of what can be requested, where it is shown what can happen at all.
+  void find_single_faults() {
     const bool is_about_groups =
         std::any_of(result_.parts.begin(), result_.parts.end(),
                     [](const VerifyPart& part) { return part.is_about_groups(); });
-    if (is_about_groups && options_.format == "text" && !options_.outcomes) {
-      const Clock::time_point begin = Clock::now();
-      for (const TaskId task : catalog_.task_ids) {
-        if (catalog_.tasks[task].start_on_request == 0) continue;
-        result_.single_faults.push_back(cut_sets_of(task, 1, in, begin));
-      }
+    if (!is_about_groups || options_.format != "text" || options_.outcomes) return;
+    Progress progress("searching", catalog_.task_ids.size());
+    const EffectOptions of_search{1, false, search_budget(progress)};
+    for (const TaskId task : catalog_.task_ids) {
+      if (catalog_.tasks[task].start_on_request == 0) continue;
+      result_.single_faults.push_back(find_cut_sets(situations(), task, of_search));
     }
   }
 
+  /// All effects, or only the cut sets of some tasks.
   void find_effects() {
     ReportedEffects& effects = result_.effects.emplace();
-    effects.order = options_.order.value_or(1);
-    effects.situation = complete_situation(catalog_, result_.situation);
+    effects.are_cut_sets = wants_cut_sets();
+    effects.in_some_situation = options_.in_some_situation;
+    effects.order = options_.order.value_or(effects.are_cut_sets ? 2 : 1);
+    effects.situation =
+        effects.are_cut_sets ? result_.situation : complete_situation(catalog_, result_.situation);
     if (options_.situations) {
       effects.changes = changes_of(catalog_, effects.situation, result_.never);
     }
     if (options_.fail_on) effects.limit = limit_of(*options_.fail_on);
-    const std::vector<TaskId> tasks = requestable_tasks();
+    const std::vector<TaskId> tasks = effects.are_cut_sets ? cut_tasks_ : requestable_tasks();
     Progress progress("searching", tasks.size());
-    EffectOptions of_search{effects.order,
-                            [this, begin = Clock::now()] { return may_go_on(begin); }};
+    const EffectOptions of_search{effects.order, effects.in_some_situation,
+                                  search_budget(progress)};
     for (const TaskId task : tasks) {
-      progress.begin(std::string(catalog_.name_of_task(task)));
       effects.tasks.push_back(
-          cbc::find_effects(catalog_, task, effects.situation, effects.changes, of_search));
+          effects.are_cut_sets
+              ? find_cut_sets(situations(), task, of_search)
+              : cbc::find_effects(catalog_, task, effects.situation, effects.changes, of_search));
     }
+  }
+
+  /// For several searches together.
+  [[nodiscard]] Budget search_budget(Progress& progress) const {
+    Budget budget = result_.limits.started();
+    budget.tell = progress.listener();
+    return budget;
   }
 
   int find_overrides() {
@@ -330,12 +337,8 @@ class Call {
           quantity(tasks.size(), "task"), most_tasks_in_pairs);
     }
     Progress progress("searching", 1);
-    progress.begin(std::string(catalog_.file));
-    const auto keep_on = [this, &progress, begin = Clock::now()](std::size_t rows) {
-      progress.show(fmt::format(" ({} decided)", quantity(rows, "task")));
-      return may_go_on(begin);
-    };
-    overrides.matrix = cbc::find_overrides(catalog_, tasks, overrides.situation, keep_on);
+    overrides.matrix =
+        cbc::find_overrides(catalog_, tasks, overrides.situation, search_budget(progress));
     progress.clear();
     if (overrides.matrix.error.empty()) return exit_ok;
     complain("{}", overrides.matrix.error);
@@ -349,33 +352,8 @@ class Call {
     return {text, static_cast<std::uint32_t>(tenths_in(text.substr(colon + 1)))};
   }
 
-  /// `begin`: since when the time limit counts.
-  [[nodiscard]] bool may_go_on(Clock::time_point begin) const {
-    const std::chrono::duration<double> elapsed = Clock::now() - begin;
-    const double limit = result_.limits.seconds;
-    return !signals_.have_come() && (limit <= 0 || elapsed.count() < limit);
-  }
-
-  /// `begin`: since when the time limit counts.
-  TaskCutSets cut_sets_of(TaskId task, std::uint32_t order, const SituationSpace& in,
-                          Clock::time_point begin) {
-    if (!may_go_on(begin)) return {task, order, {}, options_.in_some_situation};
-    Progress progress("searching", 1);
-    progress.begin(std::string(catalog_.name_of_task(task)));
-    CutSetOptions of_search;
-    of_search.order = order;
-    of_search.in_some_situation = options_.in_some_situation;
-    of_search.on_progress = [&](const CutSetProgress& so_far) {
-      progress.show(fmt::format(
-          " ({} of {}, {} found)", quantity(so_far.examined, "set"),
-          quantity(so_far.size, options_.in_some_situation ? "item" : "behavior"), so_far.found));
-      return may_go_on(begin);
-    };
-    return {task, order, cbc::find_cut_sets(in, task, of_search), of_search.in_some_situation};
-  }
-
   [[nodiscard]] std::string page() const {
-    return result_.effects ? effects_to_html(result_) : verify_to_html(result_);
+    return options_.effects ? effects_to_html(result_) : verify_to_html(result_);
   }
 
   int report() {

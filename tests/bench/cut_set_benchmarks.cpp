@@ -8,7 +8,7 @@
 
 #include "bench/benchmarks.h"
 #include "bench/inputs.h"
-#include "verify/engine/cut_sets.h"
+#include "verify/engine/effects.h"
 
 namespace cbc::bench {
 namespace {
@@ -18,14 +18,14 @@ void register_cut_sets(const std::string& name, std::shared_ptr<const CompiledCa
                        std::vector<TaskId> tasks, std::uint32_t order) {
   const auto run = [=, catalog = std::move(catalog),
                     tasks = std::move(tasks)](benchmark::State& state) {
-    CutSetOptions options;
+    EffectOptions options;
     options.order = order;
     const SituationSpace situations(*catalog, {}, {});
     std::size_t found = 0;
     for ([[maybe_unused]] const auto iteration : state) {
       found = 0;
       for (const TaskId task : tasks) {
-        found += find_cut_sets(situations, task, options).sets.size();
+        found += find_cut_sets(situations, task, options).effects.size();
       }
     }
     state.counters["found"] = static_cast<double>(found);

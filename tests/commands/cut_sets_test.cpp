@@ -1,6 +1,4 @@
 // Minimal cut sets on catalogs that a person can check.
-#include "verify/engine/cut_sets.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -12,9 +10,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/support/wording.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "support/read_file.h"
 #include "unit/compiled_fixture.h"
+#include "verify/engine/effects.h"
 
 namespace cbc::cut_sets_test {
 namespace {
@@ -22,9 +22,9 @@ namespace {
 using test::compile_text;
 using test::task_id;
 
-std::string show_sets(const CompiledCatalog& catalog, const CutSets& found) {
+std::string show_sets(const CompiledCatalog& catalog, const TaskEffects& found) {
   std::string text;
-  for (const BehaviorSet& set : found.in_every_situation()) {
+  for (const auto& [kind, set, situation, best] : found.effects) {
     text += text.empty() ? "{" : " {";
     for (std::size_t i = 0; i < set.size(); ++i) {
       if (i > 0) text += ' ';
@@ -35,14 +35,14 @@ std::string show_sets(const CompiledCatalog& catalog, const CutSets& found) {
   return text;
 }
 
-CutSets find(const CompiledCatalog& catalog, std::string_view task, std::uint32_t order) {
-  CutSetOptions options;
+TaskEffects find(const CompiledCatalog& catalog, std::string_view task, std::uint32_t order) {
+  EffectOptions options;
   options.order = order;
   return find_cut_sets(SituationSpace(catalog, {}, {}), task_id(catalog, task), options);
 }
 
 std::string cut_sets(const CompiledCatalog& catalog, std::string_view task, std::uint32_t order) {
-  const CutSets found = find(catalog, task, order);
+  const TaskEffects found = find(catalog, task, order);
   EXPECT_TRUE(found.complete);
   return show_sets(catalog, found);
 }
@@ -58,38 +58,38 @@ constexpr std::string_view survey = R"(behaviors:
 
 TEST(CutSets, SayWhatIsCompleteWhenTheyAreStopped) {
   const CompiledCatalog catalog = compile_text(survey);
-  CutSetOptions options;
+  EffectOptions options;
   options.order = 4;
-  const CutSets all =
+  const TaskEffects all =
       find_cut_sets(SituationSpace(catalog, {}, {}), task_id(catalog, "SURVEY"), options);
-  std::uint32_t reached = 0;
   for (std::uint64_t searches = 0; searches <= all.searches; ++searches) {
     std::uint64_t left = searches;
-    std::uint64_t found = 0;
-    options.on_progress = [&](const CutSetProgress& progress) {
-      reached = progress.size;
-      found = progress.found;
-      return left-- > 0;
+    std::string how_far;
+    options.budget.is_stopped = [&left] { return left-- == 0; };
+    options.budget.tell = [&how_far](const std::string& /*what*/, const auto& say) {
+      how_far = say();
     };
-    const CutSets some =
+    const TaskEffects some =
         find_cut_sets(SituationSpace(catalog, {}, {}), task_id(catalog, "SURVEY"), options);
     ASSERT_EQ(some.complete, searches == all.searches);
     if (some.complete) {
-      EXPECT_EQ(some.sets, all.sets);
+      EXPECT_EQ(some.effects, all.effects);
+      EXPECT_NE(how_far.find(" sets of 3 behaviors, "), std::string::npos)
+          << "the last search is for {plainly rtk gps}";
       break;
     }
-    EXPECT_EQ(some.incomplete_size, reached);
-    EXPECT_EQ(some.sets.size(), found);
-    ASSERT_LE(some.sets.size(), all.sets.size());
-    for (std::size_t i = 0; i < all.sets.size(); ++i) {
-      if (i < some.sets.size()) {
-        EXPECT_EQ(some.sets[i], all.sets[i]);
+    EXPECT_EQ(how_far.substr(how_far.find(" of ")),
+              fmt::format(" of {}, {} found)", quantity(some.incomplete_size, "behavior"),
+                          some.effects.size()));
+    ASSERT_LE(some.effects.size(), all.effects.size());
+    for (std::size_t i = 0; i < all.effects.size(); ++i) {
+      if (i < some.effects.size()) {
+        EXPECT_EQ(some.effects[i], all.effects[i]);
       } else {
-        EXPECT_GE(all.sets[i].behaviors.size(), some.incomplete_size) << searches;
+        EXPECT_GE(all.effects[i].faults.size(), some.incomplete_size) << searches;
       }
     }
   }
-  EXPECT_EQ(reached, 3U) << "the last search is for {plainly rtk gps}";
 }
 
 /// Nine pigeons in eight holes, which a search by propagation refutes hole by hole.
@@ -118,20 +118,20 @@ std::string pigeons() {
 TEST(CutSets, CanBeStoppedInALongSearch) {
   const CompiledCatalog catalog = compile_text(pigeons());
   const TaskId task = task_id(catalog, "ALL");
-  CutSetOptions options;
+  EffectOptions options;
   int calls = 0;
-  options.on_progress = [&](const CutSetProgress& /*progress*/) { return ++calls > 0; };
-  const CutSets all = find_cut_sets(SituationSpace(catalog, {}, {}), task, options);
+  options.budget.is_stopped = [&calls] { return ++calls == 0; };
+  const TaskEffects all = find_cut_sets(SituationSpace(catalog, {}, {}), task, options);
   EXPECT_TRUE(all.complete);
   EXPECT_EQ(show_sets(catalog, all), "{}");
   EXPECT_EQ(all.searches, 1U);
   EXPECT_GT(calls, 1) << "not hard enough";
   int left = 1;
-  options.on_progress = [&](const CutSetProgress& /*progress*/) { return left-- > 0; };
-  const CutSets none = find_cut_sets(SituationSpace(catalog, {}, {}), task, options);
+  options.budget.is_stopped = [&left] { return left-- <= 0; };
+  const TaskEffects none = find_cut_sets(SituationSpace(catalog, {}, {}), task, options);
   EXPECT_FALSE(none.complete);
   EXPECT_EQ(none.incomplete_size, 0U);
-  EXPECT_TRUE(none.sets.empty());
+  EXPECT_TRUE(none.effects.empty());
 }
 
 CompiledCatalog own_catalog(const std::string& name) {
@@ -151,7 +151,8 @@ TEST(CutSets, OfAutoware) {
       {"stop", {1, 0}}};
   for (const auto& [mode, counts] : expected) {
     Counts found(2);
-    for (const auto& set : find(catalog, "/autoware/modes/" + mode, 2).in_every_situation()) {
+    for (const Effect& lost : find(catalog, "/autoware/modes/" + mode, 2).effects) {
+      const BehaviorSet& set = lost.faults;
       if (std::all_of(set.begin(), set.end(), is_diagnostic)) ++found.at(set.size() - 1);
     }
     EXPECT_EQ(found, counts) << mode;
@@ -192,21 +193,22 @@ TEST(CutSets, CountOnlyBehaviorsThatFitTogether) {
 TEST(CutSets, DoNotCountSituationsThatNeverOccur) {
   const CompiledCatalog catalog = compile_text(vehicle);
   const std::vector<SituationPart> never{{{{0, 1}, {1, 1}}, {}}, {{{0, 0}, {1, 0}}, {}}};
-  CutSetOptions options;
+  EffectOptions options;
   options.order = 2;
   const SituationSpace situations(catalog, {}, never);
   EXPECT_EQ(show_sets(catalog, find_cut_sets(situations, task_id(catalog, "MAP"), options)),
             "{map_by_sonar} {hear_beacon}")
       << "in clear water it is too deep to see the ground";
   options.in_some_situation = true;
-  const CutSets some = find_cut_sets(situations, task_id(catalog, "MAP"), options);
-  const std::vector<CutSet> expected{
-      {{}, {{0, 0}}},
-      {{}, {{1, 1}}},
-      {{BehaviorId(1)}, {}},
-      {{BehaviorId(3)}, {}},
+  const TaskEffects some = find_cut_sets(situations, task_id(catalog, "MAP"), options);
+  constexpr auto lost = Effect::Kind::lost;
+  const std::vector<Effect> expected{
+      {lost, {}, {{0, 0}}},
+      {lost, {}, {{1, 1}}},
+      {lost, {BehaviorId(1)}, {}},
+      {lost, {BehaviorId(3)}, {}},
   };
-  EXPECT_EQ(some.sets, expected);
+  EXPECT_EQ(some.effects, expected);
 }
 
 /// Thirty pairs of tasks have to agree about a variable each, which the best behaviors do not; the
@@ -227,10 +229,10 @@ TEST(CutSets, FindWhatCannotBeSettledAmongWhatCan) {
         "- {{behavior: l{0}b, task: L{0}, suitability: 80, situation: {{V{0}: b}}}}\n", i);
   }
   const CompiledCatalog catalog = compile_text(text);
-  CutSetOptions options;
+  EffectOptions options;
   int searches = 0;
-  options.on_progress = [&](const CutSetProgress& /*progress*/) { return ++searches < 1000; };
-  const CutSets found =
+  options.budget.is_stopped = [&searches] { return ++searches >= 1000; };
+  const TaskEffects found =
       find_cut_sets(SituationSpace(catalog, {}, {}), task_id(catalog, "ALL"), options);
   EXPECT_TRUE(found.complete);
   EXPECT_EQ(show_sets(catalog, found), "{}");

@@ -33,13 +33,14 @@ tasks:
 VerifyResult cut_sets_after(int steps) {
   VerifyResult result;
   result.catalog = robot();
-  result.wants_cut_sets = true;
-  CutSetOptions options;
+  EffectOptions options;
   options.order = 2;
-  options.on_progress = [&steps](const CutSetProgress& /*progress*/) { return steps-- > 0; };
+  options.budget.is_stopped = [&steps] { return steps-- <= 0; };
   const TaskId land = result.catalog->task_ids[0];
-  result.cut_sets.push_back(
-      {land, options.order, find_cut_sets(SituationSpace(*result.catalog, {}, {}), land, options)});
+  ReportedEffects& effects = result.effects.emplace();
+  effects.are_cut_sets = true;
+  effects.order = options.order;
+  effects.tasks.push_back(find_cut_sets(SituationSpace(*result.catalog, {}, {}), land, options));
   return result;
 }
 
@@ -47,9 +48,9 @@ TEST(VerifyReport, SaysHowFarASearchForCutSetsCame) {
   bool was_partial = false;
   for (int steps = 0;; ++steps) {
     const VerifyResult result = cut_sets_after(steps);
-    const CutSets& found = result.cut_sets.front().found;
+    const TaskEffects& found = result.effects->tasks.front();
     const std::string text = verify_to_text(result, plain_style());
-    const Json json = Json::parse(verify_to_json(result))["cut_sets"][0];
+    const Json json = Json::parse(verify_to_json(result))["effects"]["tasks"][0];
     EXPECT_EQ(result.is_answered(), found.complete);
     if (found.complete) {
       EXPECT_FALSE(json.contains("complete_order"));
@@ -89,7 +90,7 @@ VerifyResult effects_after(int steps) {
   ReportedEffects& effects = result.effects.emplace();
   effects.situation = complete_situation(*result.catalog, {});
   EffectOptions options;
-  options.on_progress = [&steps] { return steps-- > 0; };
+  options.budget.is_stopped = [&steps] { return steps-- <= 0; };
   effects.tasks.push_back(
       find_effects(*result.catalog, result.catalog->task_ids[0], effects.situation, {}, options));
   return result;

@@ -214,28 +214,19 @@ class Relations {
     if (!report.at("same_as").is_null()) check_comparison(report.at("same_as"));
     if (report.contains("effects")) check_effects(report.at("effects"));
     if (report.contains("overrides")) check_overrides(report.at("overrides"));
-    if (report.at("cut_sets").is_null()) return;
-    for (const Json& of_task : report.at("cut_sets")) {
-      std::size_t size = 0;
-      for (const Json& set : of_task.at("sets")) {
-        expect(set.size() >= size && of_task.at("order") >= set.size(),
-               "the cut sets are not ordered by size, up to their order");
-        size = set.size();
-      }
-      if (of_task.contains("in_some_situation")) check_some_situations(of_task);
-    }
   }
 
   /// What is lost has no behaviors, what is not changed those of before.
   void check_effects(const Json& effects) {
     for (const Json& of_task : effects.at("tasks")) {
       for (const Json& effect : of_task.at("effects")) {
+        expect(effect.at("faults").size() <= effects.at("order"), "more faults than the order");
+        if (!effect.contains("behaviors")) continue;  // a cut set
         const Json& behaviors = effect.at("behaviors");
         expect((effect.at("effect") == "lost") == behaviors.is_null(), "lost, but with behaviors");
         expect(behaviors.is_null() == effect.at("suitability").is_null(), "half a best answer");
         expect(effect.at("effect") != "none" || behaviors == of_task.at("behaviors"),
                "other behaviors without an effect");
-        expect(effect.at("faults").size() <= effects.at("order"), "more faults than the order");
         expect(effect.at("situation").size() <= 1, "more than a single change");
       }
     }
@@ -251,15 +242,6 @@ class Relations {
         expect(has_changes == !one.at("changes").empty(), "changes, or none, without reason");
       }
     }
-  }
-
-  /// The sets that suffice under no values are those that suffice in every situation.
-  void check_some_situations(const Json& of_task) {
-    Json in_every = Json::array();
-    for (const Json& set : of_task.at("in_some_situation")) {
-      if (set.at("situation").empty()) in_every.push_back(set.at("behaviors"));
-    }
-    expect(in_every == of_task.at("sets"), "the sets without values are not those of 'sets'");
   }
 
   void check_comparison(const Json& comparison) {

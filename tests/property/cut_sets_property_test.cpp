@@ -21,7 +21,7 @@
 #include "random_cases.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "statistics.h"
-#include "verify/engine/cut_sets.h"
+#include "verify/engine/effects.h"
 
 namespace cbc::oracle::cut_sets_property_test {
 namespace {
@@ -236,26 +236,26 @@ class Check : private CompiledModel {
   }
 
   void check_cut_sets(const SituationSpace& situations, std::size_t task) {
-    CutSetOptions options;
+    EffectOptions options;
     options.in_some_situation = random_.percent(40);
     options.order = static_cast<std::uint32_t>(random_.below(5));
-    const CutSets found = find_cut_sets(situations, id_of_task(task), options);
-    std::vector<CutSet> expected;
+    const TaskEffects found = find_cut_sets(situations, id_of_task(task), options);
+    std::vector<Effect> expected;
     const std::vector<Values> values =
         options.in_some_situation ? all_values() : std::vector<Values>{{}};
     for (const SituatedSet& set : minimal_cut_sets(task, options.order, values)) {
-      CutSet& added = expected.emplace_back();
+      Effect& added = expected.emplace_back();
       for (const std::size_t behavior : set.first) {
-        added.behaviors.push_back(id_of_behavior(behavior));
+        added.faults.push_back(id_of_behavior(behavior));
       }
       for (const auto& [variable, value] : set.second) {
-        added.values.push_back(id_of_value(variable, value));
+        added.situation.push_back(id_of_value(variable, value));
       }
       statistics_.count("cut set of " + std::to_string(set.first.size()) +
                         (set.second.empty() ? "" : " in some situation"));
     }
     demand(found.complete, "not complete");
-    demand(found.sets == expected, "other cut sets of '" + catalog_.tasks[task].name + "'");
+    demand(found.effects == expected, "other cut sets of '" + catalog_.tasks[task].name + "'");
   }
 
   const LintOracle& oracle_;

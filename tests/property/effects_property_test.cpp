@@ -23,7 +23,6 @@
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/coordinator.h"
 #include "statistics.h"
-#include "verify/engine/cut_sets.h"
 #include "verify/engine/effects.h"
 #include "verify/report/verify_report.h"
 
@@ -201,31 +200,30 @@ class Check : private CompiledModel {
 
   void compare_effect(const Effect& found, const ModelEffect& expected) {
     demand(found.faults == ids_of(expected.faults), "other faults");
-    demand(found.change.has_value() == expected.change.has_value(), "a change");
-    if (found.change) {
-      demand(*found.change == id_of_value(expected.change->first, expected.change->second),
-             "another change");
+    std::vector<VariableValue> change;
+    if (expected.change) {
+      change.push_back(id_of_value(expected.change->first, expected.change->second));
     }
+    demand(found.situation == change, "another change");
     const Effect::Kind kind = !expected.best                    ? Effect::Kind::lost
                               : best_ && expected.best == best_ ? Effect::Kind::unchanged
                                                                 : Effect::Kind::degraded;
     demand(found.kind == kind, "another kind of effect");
     demand_same(found.best, expected.best);
-    statistics_.count(
-        std::string(name_of(kind)) +
-        (found.change ? " by a change" : " by faults: " + std::to_string(found.faults.size())));
+    statistics_.count(std::string(name_of(kind)) +
+                      (!found.situation.empty()
+                           ? " by a change"
+                           : " by faults: " + std::to_string(found.faults.size())));
   }
 
   void compare_with_cut_sets(const TaskEffects& found, const EffectOptions& options) const {
-    CutSetOptions of_cut_sets;
-    of_cut_sets.order = options.order;
-    const CutSets sets =
-        find_cut_sets(SituationSpace(compiled_, given_, {}), found.task, of_cut_sets);
-    std::vector<BehaviorSet> lost;
+    const TaskEffects sets =
+        find_cut_sets(SituationSpace(compiled_, given_, {}), found.task, options);
+    std::vector<Effect> lost;
     for (const Effect& effect : found.effects) {
-      if (effect.kind == Effect::Kind::lost && !effect.change) lost.push_back(effect.faults);
+      if (effect.kind == Effect::Kind::lost && effect.situation.empty()) lost.push_back(effect);
     }
-    demand(lost == sets.in_every_situation(), "what is lost is not the minimal cut sets");
+    demand(lost == sets.effects, "what is lost is not the minimal cut sets");
   }
 
   /// The whole table has single behaviors of all groups, and changes of all variables.

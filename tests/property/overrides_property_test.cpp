@@ -43,8 +43,7 @@ class Check : private CompiledModel {
       tasks.push_back(task);
       ids.push_back(id_of_task(task));
     }
-    const OverrideMatrix matrix =
-        find_overrides(compiled_, ids, given_, [](std::size_t) { return true; });
+    const OverrideMatrix matrix = find_overrides(compiled_, ids, given_, {});
     demand(matrix.complete && matrix.error.empty(), "not complete");
     for (std::size_t row = 0; row < tasks.size(); ++row) {
       for (std::size_t column = 0; column < tasks.size(); ++column) {

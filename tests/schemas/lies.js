@@ -65,7 +65,6 @@ const propertyWhere =
   (result, kind) =>
   ({properties}) =>
     properties.find((item) => item.result === result && (!kind || item.kind === kind));
-const cutSets = (report) => report.cut_sets && report.cut_sets[0];
 const effect = ({effects}) => effects && effects.tasks[0].effects[0];
 const edgeOf = (kind) => (graph) => graph.edges.find((item) => item.kind === kind);
 const finding = ({files}) => files[0].diagnostics[0];
@@ -266,10 +265,7 @@ const lies = {
     ['an exploration without states', group, {states: 0}],
     ['one group explored together', group, {groups: [0]}],
     ['a pair of three tasks', of(group, (item) => item.together[0]), (pair) => pair.push('A')],
-    ['a set of the same behavior twice', cutSets, ({sets}) => sets.push(['A', 'A'])],
-    ['a set of cut sets twice', cutSets, ({sets}) => sets.push(sets[0])],
-    ['sets of no behavior', cutSets, {order: 0}],
-    ['no task with cut sets', whole, {cut_sets: []}],
+    ['effects of no fault', ({effects}) => effects, {order: 0}],
     ['an effect of another kind', effect, {effect: 'worse'}],
     ['a suitability in percent', effect, {suitability: 80}],
     ['a fault twice', effect, {faults: ['A', 'A']}],

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -11,23 +11,27 @@
 #include "ask/ask.h"
 #include "ask/situation_space.h"
 #include "cbc/event.h"
+#include "core/support/budget.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/solver/problem.h"
 
-// What each fault, and each change of the situation, does to each task: its failure modes and
-// effects (docs/verify.md, "Effects of faults").
+// What faults, and changes of the situation, do to a task: its failure modes and effects
+// (docs/verify.md, "Effects of faults"). Those that make it impossible are its minimal cut sets
+// ("Cut sets"). Both come from one search, so that they cannot contradict each other.
 
 namespace cbc {
 
 struct EffectOptions {
   std::uint32_t order = 1;  ///< the most faults together
-  /// Called before each search for an assignment, and now and then during a long one; false ends
-  /// the whole search. May be empty.
-  std::function<bool()> on_progress;
+  /// Of cut sets: also those that suffice in some of the situations.
+  bool in_some_situation = false;
+  /// Asked before each search for an assignment, and now and then during a long one. It is told the
+  /// name of the task.
+  Budget budget = {};
 };
 
 /// The best assignment in which a task runs alone, from idle: the value of each task of its group.
-/// Empty: there is none.
+/// Empty: there is none, or none was sought.
 using BestAssignment = std::optional<Assignment>;
 
 /// What faults, or a change of the situation, do to a task.
@@ -38,9 +42,13 @@ struct Effect {
     unchanged  ///< everything is as before
   };
   Kind kind = Kind::lost;
-  BehaviorSet faults;                   ///< in catalog order; empty: see `change`
-  std::optional<VariableValue> change;  ///< the new value of a variable
-  BestAssignment best;                  ///< with these faults, in this situation
+  BehaviorSet faults;  ///< in catalog order
+  /// Of a cut set: the values under which it suffices, in catalog order, one of a variable; none:
+  /// in every situation. Otherwise of a change the new value.
+  std::vector<VariableValue> situation = {};
+  BestAssignment best = {};  ///< with these faults, in this situation
+
+  [[nodiscard]] bool operator==(const Effect&) const = default;
 };
 
 /// "lost", "degraded", "none".
@@ -49,13 +57,22 @@ struct Effect {
 /// The effects on a task, those that change nothing left out.
 struct TaskEffects {
   TaskId task;
-  BestAssignment best;  ///< without faults
-  /// First of sets of faults, by size, then in catalog order; an effect that a part of the set has
-  /// is left out. Then of the changes, in catalog order. If the task cannot run even without a
-  /// fault: only that it is lost, without faults.
-  std::vector<Effect> effects;
+  BestAssignment best = {};  ///< without faults
+  /// First of sets of faults, by size, then in catalog order, then by the values; an effect that a
+  /// part of the set has, under the same values or fewer, is left out. Then of the changes, in
+  /// catalog order. Lost without faults: the task cannot run anyway.
+  std::vector<Effect> effects = {};
   bool complete = false;  ///< false: the search was stopped
+  /// If not complete: all effects of fewer faults and values than this are there.
+  std::uint32_t incomplete_size = 0;
+  std::uint64_t searches = 0;  ///< for assignments
 };
+
+/// The minimal cut sets of a task: the effects `lost` of sets of faults in all of the situations,
+/// or in some of them. In none of these there is an assignment that satisfies all constraints and
+/// runs the task with behaviors that are available there, none of which is in the set.
+[[nodiscard]] TaskEffects find_cut_sets(const SituationSpace& situations, TaskId task,
+                                        const EffectOptions& options);
 
 /// The situation from which the changes are: of every variable a value, be it the first one.
 [[nodiscard]] SituationPart complete_situation(const CompiledCatalog& catalog, SituationPart given);

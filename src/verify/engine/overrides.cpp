@@ -7,6 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "core/support/wording.h"
 #include "runtime/coordinator/coordinator.h"
 
 namespace cbc {
@@ -36,14 +39,14 @@ class OverrideSearch {
     idle_ = coordinator_.snapshot();
   }
 
-  OverrideMatrix find(const std::function<bool(std::size_t)>& keep_on) {
+  OverrideMatrix find(const Budget& budget) {
     for (const TaskId task : matrix_.tasks) {
-      if (!keep_on(0) || !start_from(idle_, task, 1)) return std::move(matrix_);
+      if (!keeps_on(budget, 0) || !start_from(idle_, task, 1)) return std::move(matrix_);
       alone_.push_back(coordinator_.state().behavior(task));
       matrix_.is_alone.push_back(alone_.back() != none);
     }
     for (std::size_t row = 0; row < matrix_.tasks.size(); ++row) {
-      if (!keep_on(row) || !add_row(row)) return std::move(matrix_);
+      if (!keeps_on(budget, row) || !add_row(row)) return std::move(matrix_);
     }
     matrix_.complete = true;
     return std::move(matrix_);
@@ -102,6 +105,14 @@ class OverrideSearch {
     return true;
   }
 
+  [[nodiscard]] bool keeps_on(const Budget& budget, std::size_t rows) const {
+    if (budget.tell) {
+      budget.tell(std::string(catalog_.file),
+                  [rows] { return fmt::format(" ({} decided)", quantity(rows, "task")); });
+    }
+    return !budget.find_end();
+  }
+
   void compare_with_alone(std::size_t place, Override& found) const {
     const TaskId task = matrix_.tasks[place];
     const BehaviorId now = coordinator_.state().behavior(task);
@@ -145,9 +156,8 @@ std::string_view name_of(PriorityOfSecond priority) {
 }
 
 OverrideMatrix find_overrides(const CompiledCatalog& catalog, std::span<const TaskId> tasks,
-                              const SituationPart& situation,
-                              const std::function<bool(std::size_t)>& keep_on) {
-  return OverrideSearch(catalog, tasks, situation).find(keep_on);
+                              const SituationPart& situation, const Budget& budget) {
+  return OverrideSearch(catalog, tasks, situation).find(budget);
 }
 
 }  // namespace cbc

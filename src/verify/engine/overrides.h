@@ -3,13 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/property/properties.h"
+#include "core/support/budget.h"
 #include "runtime/compiled/compiled_catalog.h"
 
 // Which of two requests gives way (docs/verify.md, "Who gives way to whom").
@@ -64,11 +64,10 @@ struct OverrideMatrix {
   }
 };
 
-/// `situation`: variables that it leaves out have their first values. `keep_on` is asked before
-/// each row, with the number of those before it; false ends the search.
+/// `situation`: variables that it leaves out have their first values. The budget is asked before
+/// each row.
 [[nodiscard]] OverrideMatrix find_overrides(const CompiledCatalog& catalog,
                                             std::span<const TaskId> tasks,
-                                            const SituationPart& situation,
-                                            const std::function<bool(std::size_t)>& keep_on);
+                                            const SituationPart& situation, const Budget& budget);
 
 }  // namespace cbc

@@ -7,7 +7,7 @@
 #include "core/words/suitability.h"
 #include "verify/report/verify_report.h"
 
-// The effects of faults, as JSON. The context is the catalog.
+// The effects of faults, and cut sets, as JSON. The context is the catalog.
 
 namespace cbc::json::verify {
 
@@ -19,44 +19,54 @@ struct EffectsOfTask {
 
 /// One of them.
 struct EffectOnTask {
+  const ReportedEffects& report;
   TaskId task;
   const Effect& effect;
 };
 
-/// The best assignment in which a task runs.
+/// The best assignment in which a task runs, of effects that are not only cut sets.
 struct BestOfTask {
+  bool is_known = true;
   TaskId task;
   const BestAssignment& best;
 };
 
 constexpr auto best_assignment = group(
-    member("behaviors", nullable(behaviors),
-           "The active behaviors of the best assignment in which the task runs, in catalog order; "
-           "null: it cannot run.",
-           [](const BestOfTask& of, const CompiledCatalog& catalog) {
-             std::optional<BehaviorSet> active;
-             if (of.best) active = behaviors_of(catalog, of.task, *of.best);
-             return active;
-           }),
-    member("suitability", nullable(share),
-           "The product of the suitabilities of all tasks that run then, from 0 to 1, as the "
-           "nearest double; null: it cannot run.",
-           [](const BestOfTask& of, const CompiledCatalog& catalog) {
-             std::optional<double> suitability;
-             if (of.best) suitability = product_of(suitabilities_of(catalog, of.task, *of.best));
-             return suitability;
-           }));
+    optional("behaviors", nullable(behaviors),
+             "The active behaviors of the best assignment in which the task runs, in catalog "
+             "order; null: it cannot run. Only with --effects.",
+             [](const BestOfTask& of, const CompiledCatalog& catalog) {
+               using Active = std::optional<BehaviorSet>;
+               if (!of.is_known) return std::optional<Active>();
+               return std::optional<Active>(
+                   std::in_place,
+                   of.best ? Active(behaviors_of(catalog, of.task, *of.best)) : Active());
+             }),
+    optional("suitability", nullable(share),
+             "The product of the suitabilities of all tasks that run then, from 0 to 1, as the "
+             "nearest double; null: it cannot run. Only with --effects.",
+             [](const BestOfTask& of, const CompiledCatalog& catalog) {
+               using Product = std::optional<double>;
+               if (!of.is_known) return std::optional<Product>();
+               return std::optional<Product>(
+                   std::in_place,
+                   of.best ? Product(product_of(suitabilities_of(catalog, of.task, *of.best)))
+                           : Product());
+             }));
 
 constexpr auto effect = object(
     "effect", "",
     member(
         "faults", behaviors, "The behaviors that are faulty, in catalog order.",
         [](const EffectOnTask& of) -> const auto& { return of.effect.faults; }),
-    member("situation", situation, "What changes in the situation: at most one variable.",
+    member("situation", situation,
+           "Of a cut set the values of situation variables under which it suffices; none: in every "
+           "situation. Otherwise what changes: at most one variable.",
            [](const EffectOnTask& of, const CompiledCatalog& catalog) {
              return [&](const auto& put) {
-               const auto& change = of.effect.change;
-               if (change) put(catalog.name_of_variable(change->variable), *change);
+               for (const VariableValue& value : of.effect.situation) {
+                 put(catalog.name_of_variable(value.variable), value);
+               }
              };
            }),
     member("effect", words(Effect::Kind::unchanged),
@@ -64,7 +74,7 @@ constexpr auto effect = object(
            [](const EffectOnTask& of) { return of.effect.kind; }),
     part(
         [](const EffectOnTask& of) {
-          return BestOfTask{of.task, of.effect.best};
+          return BestOfTask{!of.report.are_cut_sets, of.task, of.effect.best};
         },
         best_assignment));
 
@@ -73,19 +83,32 @@ constexpr auto task_effects = object(
     member("task", task, "", [](const EffectsOfTask& of) { return of.of_task.task; }),
     part(
         [](const EffectsOfTask& of) {
-          return BestOfTask{of.of_task.task, of.of_task.best};
+          return BestOfTask{!of.report.are_cut_sets, of.of_task.task, of.of_task.best};
         },
         best_assignment),
     member("complete", boolean, "false: a limit ended the search, so effects are missing.",
            [](const EffectsOfTask& of) { return of.of_task.complete; }),
+    optional(
+        "complete_order", nullable(count),
+        "All effects of sets up to this size are there, values counted; null if it is not even "
+        "known whether the task can run without faults. Only if a limit ended the search.",
+        [](const EffectsOfTask& of) {
+          using Order = std::optional<std::uint32_t>;
+          const std::uint32_t incomplete = of.of_task.incomplete_size;
+          if (of.of_task.complete) return std::optional<Order>();
+          return std::optional<Order>(std::in_place,
+                                      incomplete > 0 ? Order(incomplete - 1) : Order());
+        }),
     member("effects", list(effect).on_lines(),
            "Of each single fault; of several faults together, if no part of them has the same "
-           "effect; with --situations of each single change. Of a task that cannot run even "
-           "without a fault one, without faults.",
+           "effect; with --situations of each single change. With --cut-sets only `lost`: the "
+           "minimal sets in every situation, with --in-some-situation also those that suffice in "
+           "some, by size, then in catalog order. Of a task that cannot run even without a fault "
+           "one, without faults.",
            [](const EffectsOfTask& of, const CompiledCatalog& catalog) {
              return [&](const auto& put) {
                for (const Effect& one : of.report.all_of(catalog, of.of_task)) {
-                 put(EffectOnTask{of.of_task.task, one});
+                 put(EffectOnTask{of.report, of.of_task.task, one});
                }
              };
            }));
@@ -94,13 +117,14 @@ constexpr auto effects = object(
     "effects", "",
     member("order", integer(1), "The most faults together (--order).", &ReportedEffects::order),
     member("situation", situation,
-           "From which the effects are: the values of all variables, and which behaviors are "
-           "available, as far as that is given.",
+           "From which the effects are: the values of all variables, with --cut-sets those that "
+           "are given; and which behaviors are available, as far as that is given.",
            [](const ReportedEffects& of, const CompiledCatalog& catalog) {
              return entries_of_part(of.situation, catalog);
            }),
     member("tasks", list(task_effects).on_lines(),
-           "The tasks that can be requested, in catalog order.", [](const ReportedEffects& of) {
+           "The tasks that can be requested, in catalog order; with --cut-sets those named.",
+           [](const ReportedEffects& of) {
              return [&](const auto& put) {
                for (const TaskEffects& one : of.tasks) put(EffectsOfTask{of, one});
              };

@@ -364,46 +364,6 @@ constexpr auto comparison =
        "else": {"properties": {"length": {"type": "null"}, "script": {"type": "null"},
                                "direct": {"type": "array", "maxItems": 0}}}}])");
 
-constexpr auto situated_cut_set = object(
-    "situated_cut_set", "",
-    member("behaviors", behaviors, "In catalog order; none: no fault is needed.",
-           &CutSet::behaviors),
-    member("situation", situation,
-           "The values of situation variables under which it suffices; none: in every situation.",
-           [](const CutSet& of, const CompiledCatalog& catalog) {
-             return [&](const auto& put) {
-               for (const VariableValue& value : of.values) {
-                 put(catalog.name_of_variable(value.variable), value);
-               }
-             };
-           }));
-
-constexpr auto cut_sets = object(
-    "cut_sets", "", member("task", task, "", &TaskCutSets::task),
-    member("order", integer(1), "The largest size of a set (--order).", &TaskCutSets::order),
-    optional(
-        "complete_order", nullable(count),
-        "All sets up to this size are there; null if it is not even known whether the task can "
-        "run without faults. Only if a limit ended the search.",
-        [](const TaskCutSets& of) {
-          using Order = std::optional<std::uint32_t>;
-          const std::uint32_t incomplete = of.found.incomplete_size;
-          if (of.found.complete) return std::optional<Order>();
-          return std::optional<Order>(std::in_place,
-                                      incomplete > 0 ? Order(incomplete - 1) : Order());
-        }),
-    member("sets", list(behaviors).unique(),
-           "The minimal sets of behaviors whose faults together make the task impossible in every "
-           "situation, by size, then in catalog order. One empty set: it cannot run even without "
-           "a fault.",
-           [](const TaskCutSets& of) { return of.found.in_every_situation(); }),
-    optional(
-        "in_some_situation", list(situated_cut_set).on_lines(),
-        "Only with --in-some-situation: the sets that suffice under some values of situation "
-        "variables, those of `sets` included, by size, then in catalog order, then by the "
-        "values. Of none of them a part suffices under the same values or fewer.",
-        [](const TaskCutSets& of) { return of.in_some_situation ? &of.found.sets : nullptr; }));
-
 constexpr auto report = object(
     "",
     "The output of `cbc verify --format json` (schema cbc.verify/1): what can happen on a catalog "
@@ -439,10 +399,7 @@ constexpr auto report = object(
     member("same_as", nullable(comparison),
            "The comparison with another catalog; null if none was asked for.",
            &VerifyResult::same_as),
-    member("cut_sets", nullable(list(cut_sets).at_least(1).on_lines()),
-           "The minimal cut sets of the tasks that were named; null if none was.",
-           [](const VerifyResult& of) { return of.wants_cut_sets ? &of.cut_sets : nullptr; }),
-    optional("effects", effects, "With --effects: what faults do to each task.",
+    optional("effects", effects, "With --effects or --cut-sets: what faults do to each task.",
              &VerifyResult::effects),
     optional("overrides", overrides,
              "With --overrides: what becomes of two tasks that are requested one after the other.",

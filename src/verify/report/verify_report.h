@@ -16,7 +16,6 @@
 #include "core/words/layout.h"
 #include "explore/properties/verification.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "verify/engine/cut_sets.h"
 #include "verify/engine/effects.h"
 #include "verify/engine/overrides.h"
 #include "versions/lockstep/same_as.h"
@@ -73,24 +72,18 @@ struct VerifyPart {
   [[nodiscard]] bool is_about_groups() const { return file == nullptr || file->properties.empty(); }
 };
 
-/// The cut sets of a task up to some order.
-struct TaskCutSets {
-  TaskId task;
-  std::uint32_t order = 1;
-  CutSets found;
-  bool in_some_situation = false;  ///< see CutSetOptions
-};
-
 /// Which effects make a check fail (--fail-on).
 struct EffectLimit {
   std::string text;               ///< as given: "lost", "degraded:60"
   std::uint32_t thousandths = 0;  ///< of the suitability without faults that have to be left
 };
 
-/// The effects of faults on the tasks that can be requested.
+/// The effects of faults on some tasks: all, or only that they are lost, which are their cut sets.
 struct ReportedEffects {
+  bool are_cut_sets = false;
+  bool in_some_situation = false;  ///< see EffectOptions
   std::uint32_t order = 1;
-  SituationPart situation;             ///< of every variable a value
+  SituationPart situation;             ///< of every variable a value; of cut sets what is given
   std::vector<VariableValue> changes;  ///< those that were looked at
   std::vector<TaskEffects> tasks;      ///< in catalog order
   std::optional<EffectLimit> limit;
@@ -98,7 +91,7 @@ struct ReportedEffects {
   [[nodiscard]] bool is_complete() const;
   /// The number of effects that exceed the limit, if there is one.
   [[nodiscard]] std::size_t count_failing(const CompiledCatalog& catalog) const;
-  /// All effects on a task, with those that are none.
+  /// All effects on a task; with those that are none, unless they are cut sets.
   [[nodiscard]] std::vector<Effect> all_of(const CompiledCatalog& catalog,
                                            const TaskEffects& of_task) const;
 };
@@ -132,9 +125,7 @@ struct VerifyResult {
   std::shared_ptr<const std::string> text;  ///< of the catalog; null if it was compiled
   std::vector<VerifyPart> parts;
   /// Of the tasks that start on request, in catalog order; only if a part is about groups.
-  std::vector<TaskCutSets> single_faults;
-  std::vector<TaskCutSets> cut_sets;
-  bool wants_cut_sets = false;
+  std::vector<TaskEffects> single_faults;
   /// What is given of the situation of all cut sets, and the situations that do not occur.
   SituationPart situation;
   std::vector<SituationPart> never;
@@ -175,11 +166,10 @@ void add_outcomes(const CompiledCatalog& catalog, const Assumptions& assumptions
                   const std::vector<ReportedOutcome>& outcomes, Text& text);
 void add_how_to_read_outcomes(Text& text);
 
-/// Adds the cut sets of a task; the behaviors without which a task cannot run.
-void add_cut_sets(const VerifyResult& result, const TaskCutSets& of_task, Text& text);
+/// Adds the behaviors without which a task cannot run.
 void add_single_faults(const VerifyResult& result, Text& text);
 
-/// Adds the effects of faults, task by task.
+/// Adds the effects of faults, or the cut sets, task by task.
 void add_effects(const VerifyResult& result, Text& text);
 /// All effects, as CSV (RFC 4180), and as a page.
 [[nodiscard]] std::string effects_to_csv(const VerifyResult& result, const Style& style);

@@ -30,14 +30,13 @@ bool is_proved(const VerifyPart& part) {
 }  // namespace
 
 bool VerifyResult::is_answered() const {
-  const auto is_found = [](const TaskCutSets& sets) { return sets.found.complete; };
   return std::all_of(parts.begin(), parts.end(),
                      [](const VerifyPart& part) {
                        return part.is_about_groups() ? part.verification.is_complete()
                                                      : is_proved(part);
                      }) &&
-         std::all_of(single_faults.begin(), single_faults.end(), is_found) &&
-         std::all_of(cut_sets.begin(), cut_sets.end(), is_found) &&
+         std::all_of(single_faults.begin(), single_faults.end(),
+                     [](const TaskEffects& of) { return of.complete; }) &&
          (!overrides || overrides->matrix.complete) &&
          (!effects || (effects->is_complete() && effects->count_failing(*catalog) == 0)) &&
          (!same_as || same_as->comparison.result == Verdict::Result::proved);
@@ -541,7 +540,6 @@ std::string verify_to_text(const VerifyResult& result, const Style& style) {
     text.painted(style.strong, printable(result.catalog->file));
   }
   if (result.same_as) add_comparison(result, text);
-  for (const TaskCutSets& of_task : result.cut_sets) add_cut_sets(result, of_task, text);
   if (result.effects) add_effects(result, text);
   if (result.overrides) add_overrides(result, text);
   add_totals(result, text);
