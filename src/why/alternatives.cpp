@@ -18,12 +18,10 @@
 #include <utility>
 
 #include "ask/conflict/reasons.h"
+#include "why/conflict.h"
 
 namespace cbc {
 namespace {
-
-/// For one answer: decisions of its searches (each search counts as one more), times tasks.
-constexpr std::uint64_t most_effort = 50'000'000;
 
 SearchOptions search_options() {
   SearchOptions options;
@@ -100,7 +98,7 @@ std::optional<Configuration> ConfigurationSearch::solve(const Problem& problem) 
   const SearchResult result = solver_.solve(problem, assignment);
   effort_ += (1 + result.nodes) * problem.may_stop.size();
   if (result.status == SearchStatus::infeasible) return std::nullopt;
-  if (result.status != SearchStatus::optimal || effort_ > most_effort) {
+  if (result.status != SearchStatus::optimal || effort_ > most_effort_of_answer) {
     is_cut_ = true;
     return std::nullopt;
   }

@@ -11,8 +11,6 @@ namespace {
 
 /// With more reasons than this, finding a minimal conflict set takes too long.
 constexpr std::size_t most_candidates = 20'000;
-/// The same for ConflictSearch::effort, over all searches about one event: some tenths of a second.
-constexpr std::uint64_t most_effort = 50'000'000;
 
 /// Why a behavior is not available: a script denied it, or it does not fit. `fit_first`: what to
 /// say if both hold.
@@ -202,7 +200,7 @@ class ConflictSearches {
 
   std::vector<ConflictSearch>& searches_;
   const ConflictSearch::Deadline deadline_;
-  std::uint64_t effort_left_ = most_effort;
+  std::uint64_t effort_left_ = most_effort_of_answer;
 };
 
 /// Whether a reason says which behaviors can perform what, and with what else.
@@ -364,7 +362,7 @@ bool needs_event(const CompiledCatalog& catalog, const Circumstances& circumstan
   const std::vector<std::uint32_t> present = present_values(catalog, circumstances);
   return std::any_of(ways.begin(), ways.end(), [&](const Demands& way) {
     ConflictSearch search(catalog, trigger.group, present, way);
-    return search.solve(reasons, most_effort) == Feasibility::yes;
+    return search.solve(reasons, most_effort_of_answer) == Feasibility::yes;
   });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,6 +14,10 @@
 // Minimal conflict sets of events: why there is no answer, or none of a certain kind.
 
 namespace cbc {
+
+/// Of all searches about one event: decisions (each search counts as one more), times tasks; some
+/// tenths of a second.
+inline constexpr std::uint64_t most_effort_of_answer = 50'000'000;
 
 /// Whether a demand says that the task runs.
 [[nodiscard]] constexpr bool demands_run(const Demand& demand, TaskId task) {
