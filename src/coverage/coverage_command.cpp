@@ -47,11 +47,7 @@ int run_coverage(const CoverageOptions& options) {
   if (options.write_missing) loader.leave_out(*options.write_missing);
   std::optional<std::vector<Mission>> missions = loader.load(options.paths);
   if (!missions) {
-    if (options.format == "github") {  // which could take no annotation for success
-      static_cast<void>(write_output(
-          options.output, unreadable_to_text(github_format, "cbc coverage", loader.findings())));
-    }
-    return exit_unusable;
+    return report_unreadable("cbc coverage", options.format, options.output, loader.findings());
   }
   if (is_measured) return measure_coverage(options, *missions);
   const auto question = find_question(loader.given_catalog(), std::move(*missions), options);

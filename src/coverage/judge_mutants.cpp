@@ -137,9 +137,7 @@ int judge_mutants(const CoverageOptions& options, const CoverageQuestion& questi
         *options.scripts, path_in_script(options.paths.front(), *options.scripts), result);
     if (status != exit_ok) return status;
   }
-  const MutantsFormat& format = *find_named(mutants_formats(), options.format);
-  const int status = write_output(
-      options.output, format.write(result, style_for(options.output), columns_for(options.output)));
+  const int status = write_report(mutants_formats(), options.format, result, options.output);
   return status == exit_ok ? status_of(options, result.count()) : status;
 }
 

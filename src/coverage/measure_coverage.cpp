@@ -194,9 +194,7 @@ int report(Coverage coverage, const std::vector<StatedAssumptions>& assumptions,
       }
     }
   }
-  const CoverageFormat& format = *find_named(coverage_formats(), options.format);
-  int status = write_output(options.output, format.write(coverage, style_for(options.output),
-                                                         columns_for(options.output)));
+  int status = write_report(coverage_formats(), options.format, coverage, options.output);
   const bool is_proved = std::all_of(coverage.catalogs.begin(), coverage.catalogs.end(),
                                      std::mem_fn(&CatalogCoverage::is_proved));
   if (!is_proved) status = std::max<int>(status, exit_no);

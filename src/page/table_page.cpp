@@ -18,4 +18,8 @@ std::string table_page(std::string_view title, std::string_view body) {
       tables_style_hash, xml_text(title), tables_style, body);
 }
 
+void TablePage::add_element(std::string_view element, std::string_view text) {
+  body_ += fmt::format("<{0}>{1}</{0}>\n", element, xml_text(without_indentation(text)));
+}
+
 }  // namespace cbc

@@ -205,11 +205,7 @@ int solve_missions(const SolveOptions& options) {
   MissionLoader loader;
   loader.keep_outdated();
   const std::optional<std::vector<Mission>> missions = loader.load(options.paths);
-  if (!missions) {
-    // CI systems could take a missing report for one without failures.
-    if (format.report_unreadable) format.report_unreadable(stdout, loader.findings());
-    return exit_unusable;
-  }
+  if (!missions) return report_unreadable("cbc solve", options.format, "-", loader.findings());
   if (!know_names(*missions, options.explain)) return exit_unusable;
   // What else may prevent the page is told after the report, which is of use without it.
   if (options.html) {

@@ -171,9 +171,7 @@ int report(SweepResult result, const SweepOptions& options) {
         {status, write_scripts(*result.against, options), judge(*result.against, options)});
   }
   if (!options.stats) result.times.reset();
-  const SweepFormat& format = *find_named(sweep_formats(), options.format);
-  fmt::print("{}", format.write(result, style_for(stdout)));
-  return status;
+  return std::max(status, write_report(sweep_formats(), options.format, result, "-"));
 }
 
 int run_sweep(const SweepOptions& options) {

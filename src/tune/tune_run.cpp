@@ -51,7 +51,7 @@ int tune(const TuneOptions& options) {
   if (options.paths.empty()) return usage_error("tune", "expected a catalog and a script");
   MissionLoader loader;
   const std::optional<std::vector<Mission>> missions = loader.load(options.paths);
-  if (!missions) return report_unreadable(loader.findings(), options);
+  if (!missions) return report_unreadable("cbc tune", options.format, "-", loader.findings());
   if (!can_tune(*missions)) return exit_unusable;
   const CheckedCatalog& source = *missions->front().source;
   const auto numbers = choose_numbers(source.reading, options.only);

@@ -40,7 +40,7 @@ int tune_states(const TuneOptions& options) {
   if (options.paths.empty()) return usage_error("tune", "expected a catalog or a property file");
   QuestionLoader loader;
   const std::optional<Questions> questions = loader.load(options.paths, {});
-  if (!questions) return report_unreadable(loader.findings(), options);
+  if (!questions) return report_unreadable("cbc tune", options.format, "-", loader.findings());
   if (questions->files.size() > 1) {
     return usage_error("tune", "--all-states takes at most one property file, found {}",
                        questions->files.size());

@@ -7,7 +7,6 @@
 #include <fmt/core.h>
 
 #include "core/files/output.h"
-#include "core/report/test_report.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 
@@ -53,13 +52,6 @@ std::optional<std::vector<TunableNumber>> choose_numbers(const CatalogReading& r
   return chosen;
 }
 
-int report_unreadable(const std::vector<Diagnostic>& findings, const TuneOptions& options) {
-  if (options.format == "junit") {  // a missing report could be taken for one without failures
-    fmt::print("{}", unreadable_to_text(junit_format, "cbc tune", findings));
-  }
-  return exit_unusable;
-}
-
 TuneResult begin_result(const CheckedCatalog& source, const std::vector<TunableNumber>& numbers,
                         const Recording& present, const TuneOptions& options) {
   TuneResult result{source.reading.catalog, *source.compiled, numbers, present, {}, {}, {}, {}};
@@ -68,9 +60,7 @@ TuneResult begin_result(const CheckedCatalog& source, const std::vector<TunableN
 }
 
 int write_reports(const TuneResult& result, const TuneOptions& options) {
-  const TuneFormat& format = *find_named(tune_formats(), options.format);
-  const int status =
-      write_output("-", format.write(result, style_for(stdout), columns_for(stdout)));
+  const int status = write_report(tune_formats(), options.format, result, "-");
   if (status != exit_ok || !options.html) return status;
   return write_output(*options.html, tune_to_html(result));
 }

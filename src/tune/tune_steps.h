@@ -29,11 +29,6 @@ namespace cbc::cli {
 [[nodiscard]] std::optional<std::vector<TunableNumber>> choose_numbers(
     const CatalogReading& reading, const std::vector<std::string>& only);
 
-/// Where the input cannot be read: reports as such what cannot go without one. Returns the exit
-/// status.
-[[nodiscard]] int report_unreadable(const std::vector<Diagnostic>& findings,
-                                    const TuneOptions& options);
-
 /// A result without any number looked at yet. All but the options must outlive it.
 [[nodiscard]] TuneResult begin_result(const CheckedCatalog& source,
                                       const std::vector<TunableNumber>& numbers,

@@ -357,9 +357,7 @@ class Call {
   }
 
   int report() {
-    const VerifyFormat& format = *find_named(verify_formats(), options_.format);
-    const Style style = style_for(options_.output);
-    const int status = write_output(options_.output, format.write(result_, style));
+    const int status = write_report(verify_formats(), options_.format, result_, options_.output);
     if (status != exit_ok) return status;
     return result_.is_answered() ? exit_ok : exit_no;
   }
@@ -379,12 +377,7 @@ int verify(const VerifyOptions& options) {
   QuestionLoader loader;
   std::optional<Questions> questions = loader.load(options.paths, options.same_as);
   if (!questions) {
-    // CI systems could take a missing report for one without failures.
-    const VerifyFormat& format = *find_named(verify_formats(), options.format);
-    if (format.report_unreadable != nullptr) {
-      static_cast<void>(write_output(options.output, format.report_unreadable(loader.findings())));
-    }
-    return exit_unusable;
+    return report_unreadable("cbc verify", options.format, options.output, loader.findings());
   }
   return Call(options, std::move(*questions)).run();
 }

@@ -21,6 +21,7 @@
 #include <fmt/core.h>
 
 #include "core/files/read.h"
+#include "core/report/test_report.h"
 #include "core/support/system.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
@@ -254,6 +255,13 @@ int write_output(const std::string& path, std::string_view content) {
   }
   if (const auto refusal = find_read_file(path)) return complain(*refusal);
   return replace_input(path, content);
+}
+
+int report_unreadable(std::string_view command, std::string_view format, const std::string& path,
+                      std::span<const Diagnostic> findings) {
+  const std::string report = unreadable_to_text(format, command, findings);
+  if (!report.empty()) static_cast<void>(write_output(path, report));
+  return exit_unusable;
 }
 
 int replace_input(const std::string& path, std::string_view content) {

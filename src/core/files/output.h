@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <cstring>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -172,6 +174,20 @@ void hold_standard_descriptors();
 /// Writes a file, as a whole or not at all, or to standard output for "-". If that fails, or the
 /// file is one that was read, prints why. Returns the exit status.
 [[nodiscard]] int write_output(const std::string& path, std::string_view content);
+
+/// Writes a report there. `formats`: those of the command (see ReportFormat), one of which has the
+/// name. Returns the exit status.
+template <typename Formats, typename Result>
+int write_report(const Formats& formats, std::string_view name, const Result& result,
+                 const std::string& path) {
+  const auto format = std::find_if(formats.begin(), formats.end(),
+                                   [&](const auto& one) { return one.name == name; });
+  return write_output(path, format->write(result, style_for(path), columns_for(path)));
+}
+/// Writes there that the input cannot be read, in formats for CI, which could take a missing report
+/// for one without failures. Returns the exit status.
+[[nodiscard]] int report_unreadable(std::string_view command, std::string_view format,
+                                    const std::string& path, std::span<const Diagnostic> findings);
 
 /// Writes what is left of standard output. If it could not all be written, prints why, and returns
 /// the exit status of that, otherwise `status`.

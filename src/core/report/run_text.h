@@ -12,13 +12,12 @@
 
 #include "cbc/units.h"
 #include "core/diagnostic/diagnostic.h"
+#include "core/report/blocks.h"
 #include "core/report/run_report.h"
-#include "core/report/table.h"
 #include "core/script/runner.h"
 #include "core/script/script.h"
 #include "core/words/explanation_words.h"
 #include "core/words/failure_explanation.h"
-#include "core/words/layout.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/record.h"
 

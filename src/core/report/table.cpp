@@ -5,6 +5,11 @@
 #include "core/support/wording.h"
 
 namespace cbc {
+namespace {
+
+constexpr std::string_view note_indent = "        ";
+
+}  // namespace
 
 Table::Table(const Style& style, std::vector<Column> columns, const Wrapping& wrapping)
     : style_(style), columns_(std::move(columns)), wrapping_(wrapping) {
@@ -16,8 +21,10 @@ void Table::add(Row row, std::string_view color) {
   for (std::size_t place = 0; place < row.size(); ++place) {
     columns_[place].width = std::max(columns_[place].width, width_of(row[place].text));
   }
-  rows_.emplace_back(std::move(row), color);
+  rows_.push_back({std::move(row), color});
 }
+
+void Table::add_note(std::string note) { rows_.back().notes.push_back(std::move(note)); }
 
 std::string Table::titles() const {
   Row row;
@@ -32,6 +39,7 @@ std::string Table::line(const Row& row, std::string_view color) const {
   std::size_t indent = 0;
   for (std::size_t place = 0; place < columns_.size(); ++place) {
     const Column& column = columns_[place];
+    if (column.is_picture) continue;
     begin += column.gap;
     if (place == wrapping_.column) indent = begin;
     if (place < row.size() && !row[place].text.empty()) {
@@ -56,21 +64,33 @@ std::string Table::text() const {
                   [](const Column& column) { return !column.title.empty(); })) {
     text = titles();
   }
-  for (const auto& [row, color] : rows_) text += line(row, color);
+  for (const Line& of : rows_) {
+    text += line(of.row, of.color);
+    for (const std::string& note : of.notes) {
+      text +=
+          wrap_line(concat(note_indent, note), wrapping_.columns, note_indent.size() + 2) + "\n";
+    }
+  }
   return text;
 }
 
 std::string Table::html(std::string_view element_class) const {
-  std::string html = concat("<table class=\"", element_class, "\">\n<tr>");
+  std::string html = concat("<table class=\"", element_class, "\">\n");
+  if (!caption_.empty()) html += concat("<caption>", xml_text(caption_), "</caption>\n");
+  html += "<tr>";
   for (const Column& column : columns_) {
     html += column.title.empty() ? "<td></td>"
                                  : concat("<th scope=\"col\">", xml_text(column.title), "</th>");
   }
   html += "</tr>\n";
-  for (const auto& [row, color] : rows_) {
-    html += concat("<tr><th scope=\"row\">", xml_text(row.front().text), "</th>");
-    for (std::size_t place = 1; place < row.size(); ++place) {
-      html += concat("<td>", xml_text(row[place].text), "</td>");
+  for (const Line& of : rows_) {
+    html += concat("<tr><th scope=\"row\">", xml_text(of.row.front().text), "</th>");
+    for (std::size_t place = 1; place < of.row.size(); ++place) {
+      const std::string& text = of.row[place].text;
+      html += concat("<td>", columns_[place].is_picture ? text : xml_text(text), "</td>");
+    }
+    for (const std::string& note : of.notes) {
+      html += concat(&note == of.notes.data() ? "<td>" : "", "<p>", xml_text(note), "</p>");
     }
     html += "</tr>\n";
   }

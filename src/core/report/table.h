@@ -20,8 +20,8 @@ struct Wrapping {
   Breaks breaks = Breaks::between_words;
 };
 
-/// A table for people. Its columns are as wide as what they hold, names are at the left and numbers
-/// at the right, and lines have no blanks at their end.
+/// A table for people, as text and as HTML. In a text its columns are as wide as what they hold,
+/// names are at the left and numbers at the right, and lines have no blanks at their end.
 class Table {
  public:
   enum class Align : std::uint8_t { left, right };
@@ -29,8 +29,9 @@ class Table {
   struct Column {
     std::string title = {};
     Align align = Align::left;
-    std::size_t width = 0;  ///< at least
-    std::size_t gap = 2;    ///< blanks before it
+    std::size_t width = 0;    ///< at least
+    std::size_t gap = 2;      ///< blanks before it
+    bool is_picture = false;  ///< of SVG, which texts leave out
   };
 
   /// A text or a number, and its color.
@@ -48,6 +49,10 @@ class Table {
 
   /// Adds a row; cells at its end may be missing. `color`: of the whole line.
   void add(Row row, std::string_view color = {});
+  /// Adds a line below the last row; in HTML it stands in a column at the end.
+  void add_note(std::string note);
+  /// How to read the pictures.
+  void set_caption(std::string caption) { caption_ = std::move(caption); }
 
   /// All of it: the titles, if there are any, and the rows.
   [[nodiscard]] std::string text() const;
@@ -63,7 +68,13 @@ class Table {
   const Style style_;
   std::vector<Column> columns_;
   Wrapping wrapping_;
-  std::vector<std::pair<Row, std::string_view>> rows_;
+  struct Line {
+    Row row;
+    std::string_view color;
+    std::vector<std::string> notes = {};
+  };
+  std::vector<Line> rows_;
+  std::string caption_;
 };
 
 /// A column of numbers.

@@ -31,24 +31,41 @@ std::string junit_begin(std::string_view command) {
                      command);
 }
 
-std::string junit_case(const TestCase& test, const std::string& file) {
-  std::string text =
-      fmt::format(R"(<testcase name="{}" classname="{}")", xml_text(test.name), xml_text(file));
-  const std::string message = xml_text(test.message);
-  switch (test.status) {
-    case TestCase::Status::passed:
-      return text + (message.empty()
-                         ? "/>\n"
-                         : fmt::format("><system-out>{}</system-out></testcase>\n", message));
-    case TestCase::Status::skipped:
-      return text + fmt::format("><skipped message=\"{}\"/></testcase>\n", message);
-    case TestCase::Status::failed:
-    case TestCase::Status::error:
-      break;
+/// Related places are further lines.
+std::string message_with_notes(const Diagnostic& finding) {
+  std::string text = finding.message;
+  for (const Note& note : finding.notes) {
+    text += fmt::format("\n{}: {}", format_place(note.file, note.range.begin), note.message);
   }
+  return text;
+}
+
+/// The same after the place, if there is one.
+std::string with_place(const Diagnostic& finding) {
+  const std::string message = message_with_notes(finding);
+  if (finding.range == whole_file) return message;
+  return fmt::format("{}: {}", format_place(finding.file, finding.range.begin), message);
+}
+
+std::string junit_case(const TestCase& test, const std::string& file) {
+  const std::string text =
+      fmt::format(R"(<testcase name="{}" classname="{}")", xml_text(test.name), xml_text(file));
+  if (test.status == TestCase::Status::skipped) {
+    return text + fmt::format("><skipped message=\"{}\"/></testcase>\n", xml_text(test.more));
+  }
+  std::string details = join(test.findings, "\n", with_place);
+  if (test.status == TestCase::Status::passed) {
+    return text + (details.empty() ? "/>\n"
+                                   : fmt::format("><system-out>{}</system-out></testcase>\n",
+                                                 xml_lines(details)));
+  }
+  const Diagnostic& first = test.findings.front();
+  std::string message = first.message.substr(0, first.message.find('\n'));
+  if (test.findings.size() > 1) message += fmt::format(" (and {} more)", test.findings.size() - 1);
+  if (!test.more.empty()) details += "\n\n" + test.more;
   return text + fmt::format(">\n<{0} type=\"{1}\" message=\"{2}\">{3}</{0}>\n</testcase>\n",
                             test.status == TestCase::Status::failed ? "failure" : "error",
-                            test.type, message, xml_lines(test.details));
+                            xml_text(first.rule), xml_text(message), xml_lines(details));
 }
 
 std::string junit_suite(const TestSuite& suite) {
@@ -85,49 +102,62 @@ std::string escape_for_github(std::string_view text, std::string_view separators
 }
 
 /// One line, which becomes an annotation.
-std::string github_command(const std::string& file, const Annotation& annotation) {
+std::string github_command(const Diagnostic& finding, const std::string& message) {
   const auto property = [](std::string_view text) { return escape_for_github(text, ":,"); };
-  const std::string place =
-      annotation.place ? fmt::format(",line={},endLine={},col={},endColumn={}",
-                                     annotation.place->begin.line, annotation.place->end.line,
-                                     annotation.place->begin.column, annotation.place->end.column)
-                       : "";
+  const auto& [begin, end] = finding.range;
+  const std::string place = finding.range == whole_file
+                                ? ""
+                                : fmt::format(",line={},endLine={},col={},endColumn={}", begin.line,
+                                              end.line, begin.column, end.column);
   // GitHub does not attach annotations to "./a.yaml", which is how a search in "." names a file.
-  const std::string path = std::filesystem::path(file).lexically_normal().string();
-  return fmt::format(
-      "::{} file={}{},title={}::{}\n",
-      annotation.severity == Severity::note ? "notice" : name_of(annotation.severity),
-      property(path), place, property(annotation.title), escape_for_github(annotation.message, ""));
+  const std::string path = std::filesystem::path(finding.file).lexically_normal().string();
+  return fmt::format("::{} file={}{},title=cbc {}::{}\n",
+                     finding.severity == Severity::note ? "notice" : name_of(finding.severity),
+                     property(path), place, property(finding.rule), escape_for_github(message, ""));
 }
 
 std::string github_suite(const TestSuite& suite) {
   std::string text;
-  for (const TestCase& test : suite.cases) {
-    for (const Annotation& one : test.annotations) text += github_command(suite.file, one);
-  }
+  for (const TestCase& test : suite.cases) text += annotations_to_text(test.findings);
   return text;
-}
-
-std::string place_and_message(const std::string& file, const Range& range,
-                              const std::string& message) {
-  return fmt::format("{}: {}", format_place(file, range.begin), message);
 }
 
 }  // namespace
 
-const TestFormat junit_format = {junit_begin, junit_suite, "</testsuites>\n"};
-const TestFormat github_format = {[](std::string_view) { return std::string(); }, github_suite, ""};
+const TestFormat junit_format = {"junit", junit_begin, junit_suite, "</testsuites>\n"};
+const TestFormat github_format = {"github", [](std::string_view) { return std::string(); },
+                                  github_suite, ""};
 
 Range place_of_line(std::size_t line) {
   const Position begin{static_cast<std::uint32_t>(line), 1};
   return {begin, begin};
 }
 
-TestCase notice_of_line(std::size_t line, std::string title, std::string message) {
-  TestCase test;
-  test.annotations.push_back(
-      {Severity::note, place_of_line(line), std::move(title), std::move(message)});
-  return test;
+Diagnostic notice_of_line(std::string_view file, std::size_t line, std::string_view rule,
+                          std::string message) {
+  return {rule, Severity::note, std::string(file), place_of_line(line), std::move(message), {}};
+}
+
+std::string annotations_to_text(std::span<const Diagnostic> findings) {
+  std::string text;
+  for (std::size_t first = 0, end = 0; first < findings.size(); first = end) {
+    const Diagnostic& finding = findings[first];
+    std::string message;
+    for (; end < findings.size(); ++end) {
+      const Diagnostic& next = findings[end];
+      if (next.rule != finding.rule || next.file != finding.file || next.range != finding.range) {
+        break;
+      }
+      message += (end > first ? "\n" : "") + message_with_notes(next);
+    }
+    text += github_command(finding, message);
+  }
+  return text;
+}
+
+void TestCase::fail(Diagnostic finding, Status its_status) {
+  status = its_status;
+  findings.push_back(std::move(finding));
 }
 
 std::string tests_to_text(const TestFormat& format, std::string_view command,
@@ -137,33 +167,31 @@ std::string tests_to_text(const TestFormat& format, std::string_view command,
   return text.append(format.end);
 }
 
-std::string unreadable_to_text(const TestFormat& format, std::string_view command,
+std::string unreadable_to_text(std::string_view format, std::string_view command,
                                std::span<const Diagnostic> findings) {
-  const auto case_of = [](std::string message) {
-    return TestCase{"can be read", TestCase::Status::error, "input", std::move(message)};
-  };
   std::map<std::string, TestCase> by_file;
+  const auto add = [&](const Diagnostic& finding) {
+    TestCase& test = by_file.try_emplace(finding.file, TestCase{"can be read"}).first->second;
+    test.fail(finding, TestCase::Status::error);
+  };
   for (const Diagnostic& finding : findings) {
-    if (finding.severity != Severity::error) continue;
-    TestCase& test = by_file.try_emplace(finding.file, case_of(finding.message)).first->second;
-    test.details += place_and_message(finding.file, finding.range, finding.message) + "\n";
-    test.annotations.push_back(annotation_of(finding));
+    if (finding.severity == Severity::error) add(finding);
   }
   if (by_file.empty()) {
-    by_file["<input>"] = case_of("the input cannot be read; standard error has the reason");
+    add({"input",
+         Severity::error,
+         "<input>",
+         whole_file,
+         "the input cannot be read; standard error has the reason",
+         {}});
   }
   std::vector<TestSuite> suites;
   suites.reserve(by_file.size());
   for (auto& [file, test] : by_file) suites.push_back({file, {}, {std::move(test)}});
-  return tests_to_text(format, command, suites);
-}
-
-Annotation annotation_of(const Diagnostic& finding) {
-  std::string message = finding.message;
-  for (const Note& note : finding.notes) {
-    message += "\n" + place_and_message(note.file, note.range, note.message);
+  for (const TestFormat* const one : {&junit_format, &github_format}) {
+    if (one->name == format) return tests_to_text(*one, command, suites);
   }
-  return {finding.severity, finding.range, fmt::format("cbc {}", finding.rule), message};
+  return {};
 }
 
 }  // namespace cbc

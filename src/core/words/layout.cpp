@@ -136,16 +136,4 @@ std::string_view without_indentation(std::string_view line) {
   return line.substr(std::min(line.find_first_not_of(' '), line.size()));
 }
 
-void Text::line(std::string_view line) { painted({}, line); }
-
-void Text::painted(std::string_view color, std::string_view line) {
-  const std::size_t indent = line.size() - without_indentation(line).size() + 2;
-  const std::string wrapped = wrap_line(line, columns_, indent);
-  text_ += (color.empty() ? wrapped : style_.paint(color, wrapped)) + "\n";
-}
-
-void Text::title(std::string_view title) {
-  text_ += "\n" + style_.paint(style_.strong, title) + "\n";
-}
-
 }  // namespace cbc

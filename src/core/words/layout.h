@@ -4,12 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
-
-#include <fmt/format.h>
-
-#include "core/diagnostic/diagnostic.h"
 
 /// How texts for people fit into a terminal.
 namespace cbc {
@@ -43,41 +38,5 @@ enum class Breaks : std::uint8_t {
 
 /// The line without the blanks at its beginning.
 [[nodiscard]] std::string_view without_indentation(std::string_view line);
-
-/// A text as it grows, line by line.
-class Text {
- public:
-  /// `columns`: of the terminal; 0: no limit.
-  explicit Text(const Style& style, std::size_t columns = 0) : style_(style), columns_(columns) {}
-
-  /// Adds a line. Where it has to be broken, the rest stands two columns further to the right than
-  /// its beginning.
-  void line(std::string_view line);
-  template <typename... Args>
-  void line(fmt::format_string<Args...> form, Args&&... args) {
-    line(std::string_view(fmt::format(form, std::forward<Args>(args)...)));
-  }
-  /// The same in a color.
-  void painted(std::string_view color, std::string_view line);
-  template <typename... Args>
-  void painted(std::string_view color, fmt::format_string<Args...> form, Args&&... args) {
-    painted(color, std::string_view(fmt::format(form, std::forward<Args>(args)...)));
-  }
-  /// An empty line, and a title.
-  void title(std::string_view title);
-  /// Adds whole lines, as they are.
-  void add(std::string_view lines) { text_ += lines; }
-
-  [[nodiscard]] const Style& style() const { return style_; }
-  [[nodiscard]] std::size_t columns() const { return columns_; }
-  [[nodiscard]] bool is_empty() const { return text_.empty(); }
-  /// The text so far, which then begins anew.
-  [[nodiscard]] std::string take() { return std::exchange(text_, {}); }
-
- private:
-  Style style_;
-  std::size_t columns_;
-  std::string text_;
-};
 
 }  // namespace cbc

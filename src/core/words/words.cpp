@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/support/wording.h"
-#include "core/words/layout.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
@@ -259,12 +258,6 @@ std::string describe_assumptions(const CompiledCatalog& catalog, const StatedAss
   const std::size_t given = initially.variables.size() + initially.behaviors.size();
   if (given > 0) text += fmt::format("; {} given initially", quantity(given, "value"));
   return text;
-}
-
-std::string assumptions_to_text(const CompiledCatalog& catalog, const StatedAssumptions& stated,
-                                std::size_t columns) {
-  const std::size_t width = columns == 0 ? text_width : std::min(columns, text_width);
-  return wrap_line(describe_assumptions(catalog, stated), width, 2) + "\n";
 }
 
 std::string describe_event(const CompiledCatalog& catalog, const EventRecord& record,

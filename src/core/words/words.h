@@ -58,12 +58,6 @@ namespace cbc {
 [[nodiscard]] std::string describe_assumptions(const CompiledCatalog& catalog,
                                                const StatedAssumptions& stated);
 
-/// The same, broken to the width of tables, or of a terminal that is narrower. `columns`: of the
-/// terminal, 0 if there is none.
-[[nodiscard]] std::string assumptions_to_text(const CompiledCatalog& catalog,
-                                              const StatedAssumptions& stated,
-                                              std::size_t columns = 0);
-
 // Events and expectations in words.
 
 /// What happened: "start HOVER, priority 2". `step` is the scripted one, or null.

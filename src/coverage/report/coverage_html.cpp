@@ -6,48 +6,25 @@
 
 #include <fmt/format.h>
 
-#include "core/report/table.h"
 #include "core/support/wording.h"
 #include "core/words/words.h"
 #include "coverage/report/coverage_report.h"
 #include "explore/properties/explore.h"
-#include "page_files.h"
+#include "page/table_page.h"
 
 // The page needs no script: what a line shows on demand is in elements that unfold.
 
 namespace cbc {
 namespace {
 
-class CatalogPage {
+/// The text of a catalog, with the goals of each line.
+class SourceTable {
  public:
-  explicit CatalogPage(const CatalogCoverage& coverage)
+  explicit SourceTable(const CatalogCoverage& coverage)
       : coverage_(coverage), of_lines_(coverage.goals_of_lines()) {}
 
-  std::string write() {
-    html_ = fmt::format("<section>\n<h2>{}</h2>\n", xml_text(coverage_.catalog().file));
-    if (coverage_.assumptions()) {
-      html_ += fmt::format("<p>{}</p>\n", xml_text(describe_assumptions(coverage_.catalog(),
-                                                                        *coverage_.assumptions())));
-    }
-    html_ += counts_table(coverage_, plain_style()).html("counts");
-    if (!coverage_.is_proved()) html_ += fmt::format("<p>{}</p>\n", incomplete_proof);
-    write_missions();
-    write_source();
-    return html_ + "</section>\n";
-  }
-
- private:
-  void write_missions() {
-    html_ += fmt::format("<details><summary>{}</summary><ul>\n",
-                         quantity(coverage_.missions().size(), "mission"));
-    for (const std::string& mission : coverage_.missions()) {
-      html_ += fmt::format("<li>{}</li>\n", xml_text(mission));
-    }
-    html_ += "</ul></details>\n";
-  }
-
-  void write_source() {
-    html_ += "<table class=\"source\">\n";
+  std::string write() && {
+    html_ = "<table class=\"source\">\n";
     const std::string_view text = coverage_.text();
     std::size_t begin = 0;
     for (std::size_t line = 1; begin < text.size(); ++line) {
@@ -55,9 +32,10 @@ class CatalogPage {
       write_line(line, text.substr(begin, end - begin));
       begin = end + 1;
     }
-    html_ += "</table>\n";
+    return html_ + "</table>\n";
   }
 
+ private:
   void write_line(std::size_t line, std::string_view text) {
     const std::vector<std::uint32_t>& goals = of_lines_.at(line);
     GoalCount count;
@@ -108,21 +86,22 @@ class CatalogPage {
 
 std::string coverage_to_html(const Coverage& coverage) {
   const GoalCount total = coverage.total();
-  std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src {}; "
-      "base-uri 'none'; form-action 'none'\">\n"
-      "<title>Coverage {}</title>\n<style>{}</style>\n</head>\n<body>\n"
-      "<h1>Coverage: {} of {} goals, {}</h1>\n"
+  TablePage page;
+  page.add(
       "<p>A line is <span class=\"met\">covered</span> if missions meet all of its goals, "
       "<span class=\"part\">partly covered</span> if they meet some, and "
       "<span class=\"missed\">not covered</span> if they meet none. Open a line for its "
-      "goals.</p>\n",
-      coverage_style_hash, describe_percent(total), coverage_style, total.met, total.goals,
-      describe_percent(total));
-  for (const CatalogCoverage& catalog : coverage.catalogs) html += CatalogPage(catalog).write();
-  return html + "</body>\n</html>\n";
+      "goals.</p>\n");
+  for (const CatalogCoverage& catalog : coverage.catalogs) {
+    add_counts(catalog, page);
+    page.add("<details><summary>missions</summary><ul>\n");
+    for (const std::string& mission : catalog.missions()) {
+      page.add(fmt::format("<li>{}</li>\n", xml_text(mission)));
+    }
+    page.add("</ul></details>\n" + SourceTable(catalog).write());
+  }
+  return page.page(
+      fmt::format("Coverage: {} of {} goals, {}", total.met, total.goals, describe_percent(total)));
 }
 
 }  // namespace cbc

@@ -11,7 +11,7 @@
 #include "core/catalog/catalog.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/property/properties.h"
-#include "core/report/table.h"
+#include "core/report/blocks.h"
 #include "coverage/engine/coverage.h"
 #include "coverage/engine/goals.h"
 #include "coverage/engine/missing_missions.h"
@@ -22,39 +22,17 @@
 
 namespace cbc {
 
-inline constexpr std::string_view incomplete_proof =
-    "incomplete: a limit or an interrupt ended the proof, and goals that nothing is proven of may "
-    "be "
-    "impossible";
-
-/// The goals of each section, met and missed.
-[[nodiscard]] Table counts_table(const CatalogCoverage& coverage, const Style& style);
-
-/// A table of the goals of each section, and a list of those that are not met. `columns`: of the
-/// terminal, see wrap_line.
-[[nodiscard]] std::string coverage_to_text(const Coverage& coverage, const Style& style,
-                                           std::size_t columns = 0);
-
 [[nodiscard]] std::string coverage_to_json(const Coverage& coverage);
 [[nodiscard]] std::string coverage_schema();
+
+/// Adds what the missions of a catalog cover, in numbers.
+void add_counts(const CatalogCoverage& coverage, Blocks& report);
 
 /// A page with the lines of the catalogs, marked as covered, partly covered or not.
 [[nodiscard]] std::string coverage_to_html(const Coverage& coverage);
 
-/// A tracefile of LCOV: a line counts the missions that meet one of its goals at least, and its
-/// goals are its branches.
-[[nodiscard]] std::string coverage_to_lcov(const Coverage& coverage);
-
-/// Workflow commands of GitHub Actions: one for each line with goals that are not met.
-[[nodiscard]] std::string coverage_to_github(const Coverage& coverage);
-
-struct CoverageFormat {
-  std::string_view name;
-  std::string (*write)(const Coverage& coverage, const Style& style, std::size_t columns);
-};
-
 /// The first one is the default.
-[[nodiscard]] std::span<const CoverageFormat> coverage_formats();
+[[nodiscard]] std::span<const ReportFormat<Coverage>> coverage_formats();
 
 /// What `cbc coverage --write-missing` reports.
 struct WrittenMissions {
@@ -104,24 +82,10 @@ struct MutantsResult {
   [[nodiscard]] MutantCount count() const;
 };
 
-/// A table by line, then the survivors with a mission that would notice each. `columns`: of the
-/// terminal, see wrap_line.
-[[nodiscard]] std::string mutants_to_text(const MutantsResult& result, const Style& style,
-                                          std::size_t columns = 0);
-
 [[nodiscard]] std::string mutants_to_json(const MutantsResult& result);
 [[nodiscard]] std::string mutants_schema();
 
-/// Workflow commands of GitHub Actions: one for each line with survivors.
-[[nodiscard]] std::string mutants_to_github(const MutantsResult& result);
-
-/// A format of `cbc coverage --mutants`.
-struct MutantsFormat {
-  std::string_view name;
-  std::string (*write)(const MutantsResult& result, const Style& style, std::size_t columns);
-};
-
 /// The first one is the default.
-[[nodiscard]] std::span<const MutantsFormat> mutants_formats();
+[[nodiscard]] std::span<const ReportFormat<MutantsResult>> mutants_formats();
 
 }  // namespace cbc

@@ -8,10 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "core/report/table.h"
+#include "core/report/blocks.h"
 #include "core/report/test_report.h"
 #include "core/support/wording.h"
-#include "core/words/layout.h"
 #include "core/words/words.h"
 #include "coverage/engine/first_goals.h"
 #include "coverage/report/coverage_report.h"
@@ -60,24 +59,6 @@ void add_first_goals(const CatalogCoverage& coverage, Text& text) {
   }
 }
 
-void add_catalog(const CatalogCoverage& coverage, Text& text) {
-  text.line("{}, {}", text.style().paint(text.style().strong, printable(coverage.catalog().file)),
-            quantity(coverage.missions().size(), "mission"));
-  if (coverage.assumptions()) {
-    text.add(assumptions_to_text(coverage.catalog(), *coverage.assumptions(), text.columns()));
-  }
-  text.add("\n" + counts_table(coverage, text.style()).text());
-  if (!coverage.is_proved()) {
-    text.line("");
-    text.line(incomplete_proof);
-  }
-  add_first_goals(coverage, text);
-  add_list(coverage, is_long(coverage) ? "all that no mission shows" : "no mission shows that",
-           &CatalogCoverage::is_missed, text);
-  add_list(coverage, "under these assumptions no mission can show, and so it does not count, that",
-           &CatalogCoverage::is_unreachable, text);
-}
-
 /// The missions that meet one of the goals at least.
 std::size_t count_missions(const CatalogCoverage& coverage,
                            const std::vector<std::uint32_t>& goals) {
@@ -115,8 +96,7 @@ std::string catalog_to_lcov(const CatalogCoverage& coverage) {
                      of_branches.met, lines, found.goals, found.met);
 }
 
-}  // namespace
-
+/// The goals of each section, met and missed.
 Table counts_table(const CatalogCoverage& coverage, const Style& style) {
   const bool is_proved = coverage.assumptions().has_value();
   std::vector<Table::Column> columns = {{{}, {}, 14},
@@ -141,18 +121,41 @@ Table counts_table(const CatalogCoverage& coverage, const Style& style) {
   return table;
 }
 
-std::string coverage_to_text(const Coverage& coverage, const Style& style, std::size_t columns) {
-  Text text(style, columns);
+}  // namespace
+
+void add_counts(const CatalogCoverage& coverage, Blocks& report) {
+  report.heading(fmt::format("{}, {}", printable(coverage.catalog().file),
+                             quantity(coverage.missions().size(), "mission")));
+  if (coverage.assumptions()) {
+    report.paragraph(describe_assumptions(coverage.catalog(), *coverage.assumptions()));
+  }
+  report.line("");
+  report.table(counts_table(coverage, report.style()), "counts");
+  if (coverage.is_proved()) return;
+  report.line("");
+  report.line(
+      "incomplete: a limit or an interrupt ended the proof, and goals that nothing is proven of "
+      "may "
+      "be impossible");
+}
+
+namespace {
+
+void add_coverage(const Coverage& coverage, Text& text) {
   for (const CatalogCoverage& catalog : coverage.catalogs) {
-    if (!text.is_empty()) text.line("");
-    add_catalog(catalog, text);
+    add_counts(catalog, text);
+    add_first_goals(catalog, text);
+    add_list(catalog,
+             is_long(catalog) ? "all that no mission shows" : "coverage: no mission shows that",
+             &CatalogCoverage::is_missed, text);
+    add_list(catalog, "under these assumptions no mission can show, and so it does not count, that",
+             &CatalogCoverage::is_unreachable, text);
   }
   if (coverage.catalogs.size() > 1) {
     const GoalCount total = coverage.total();
     text.line("");
     text.line("all catalogs: {} of {} goals, {}", total.met, total.goals, describe_percent(total));
   }
-  return text.take();
 }
 
 std::string coverage_to_lcov(const Coverage& coverage) {
@@ -161,37 +164,30 @@ std::string coverage_to_lcov(const Coverage& coverage) {
   return text;
 }
 
-std::string coverage_to_github(const Coverage& coverage) {
-  std::string text;
-  for (const CatalogCoverage& catalog : coverage.catalogs) {
-    TestSuite suite{std::string(catalog.catalog().file)};
-    const auto of_lines = catalog.goals_of_lines();
+/// Of each line that has some.
+std::vector<Diagnostic> missed_goals(const Coverage& coverage) {
+  std::vector<Diagnostic> findings;
+  for (const CatalogCoverage& of : coverage.catalogs) {
+    const auto of_lines = of.goals_of_lines();
     for (std::uint32_t line = 1; line < of_lines.size(); ++line) {
-      std::vector<std::string> missed;
       for (const std::uint32_t goal : of_lines[line]) {
-        if (!catalog.is_missed(goal)) continue;
-        missed.push_back(describe(catalog.catalog(), catalog.goals()[goal]));
+        if (!of.is_missed(goal)) continue;
+        findings.push_back(notice_of_line(of.catalog().file, line,
+                                          "coverage: no mission shows that",
+                                          describe(of.catalog(), of.goals()[goal])));
       }
-      if (missed.empty()) continue;
-      suite.cases.push_back(notice_of_line(line, "No mission shows that", join(missed, "\n")));
     }
-    text += github_format.suite(suite);
   }
-  return text;
+  return findings;
 }
 
-std::span<const CoverageFormat> coverage_formats() {
-  using Given = const Coverage&;
-  static constexpr CoverageFormat formats[] = {
-      {"text", coverage_to_text},
-      {"json", [](Given coverage, const Style& /*style*/,
-                  std::size_t /*columns*/) { return coverage_to_json(coverage); }},
-      {"html", [](Given coverage, const Style& /*style*/,
-                  std::size_t /*columns*/) { return coverage_to_html(coverage); }},
-      {"lcov", [](Given coverage, const Style& /*style*/,
-                  std::size_t /*columns*/) { return coverage_to_lcov(coverage); }},
-      {"github", [](Given coverage, const Style& /*style*/,
-                    std::size_t /*columns*/) { return coverage_to_github(coverage); }},
+}  // namespace
+
+std::span<const ReportFormat<Coverage>> coverage_formats() {
+  static constexpr ReportFormat<Coverage> formats[] = {
+      {"text", as_text<add_coverage>},          {"json", for_programs<coverage_to_json>},
+      {"html", for_programs<coverage_to_html>}, {"lcov", for_programs<coverage_to_lcov>},
+      {"github", as_annotations<missed_goals>},
   };
   return formats;
 }
@@ -237,8 +233,9 @@ std::string written_missions_to_text(const WrittenMissions& tests, std::size_t c
     beside =
         " beside " + (*tests.missions == 0 ? "no mission" : quantity(*tests.missions, "mission"));
   }
-  text.add(printable(tests.catalog->file) + beside + "\n");
-  text.add(assumptions_to_text(*tests.catalog, tests.assumptions, columns) + "\n");
+  text.line(printable(tests.catalog->file) + beside);
+  text.paragraph(describe_assumptions(*tests.catalog, tests.assumptions));
+  text.line("");
   std::uint64_t met = 0;
   for (const MissingMissions::Mission& mission : missing.missions) met += mission.goals.size();
   Table counts(text.style(), {{{}, {}, 18}, number_column({}, 8, 0)});
@@ -247,7 +244,7 @@ std::string written_missions_to_text(const WrittenMissions& tests, std::size_t c
   counts.add({"unreachable", missing.unreachable.size()});
   counts.add({"met by tests", met});
   counts.add({"not met", missing.unmet.size()});
-  text.add(counts.text());
+  text.table(counts);
   text.line("");
   text.line(count_tests(missing));
   Table files(text.style(), {{}, {}});
@@ -256,7 +253,7 @@ std::string written_missions_to_text(const WrittenMissions& tests, std::size_t c
     files.add({printable(tests.paths[place]),
                quantity(mission.events, "event") + "  " + quantity(mission.goals.size(), "goal")});
   }
-  text.add(files.text());
+  text.table(files);
   if (!tests.incomplete.empty()) {
     text.line("");
     text.line("incomplete: " + tests.incomplete);

@@ -1,17 +1,15 @@
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/report/assumptions_json.h"
-#include "core/report/table.h"
+#include "core/report/blocks.h"
 #include "core/report/test_report.h"
 #include "core/support/json_description.h"
 #include "core/support/wording.h"
-#include "core/words/layout.h"
 #include "core/words/words.h"
 #include "coverage/report/coverage_report.h"
 #include "runtime/base/text.h"
@@ -41,7 +39,8 @@ void add_table(const MutantsResult& result, Text& text) {
                {noticed_by(result, verdict), has_survived ? text.style().bad : std::string_view()},
                describe(*result.catalog, mutant)});
   }
-  text.add("\n" + table.text());
+  text.line("");
+  text.table(table);
 }
 
 void add_survivors(const MutantsResult& result, Text& text) {
@@ -113,48 +112,45 @@ MutantCount MutantsResult::count() const {
   return count;
 }
 
-std::string mutants_to_text(const MutantsResult& result, const Style& style, std::size_t columns) {
-  Text text(style, columns);
+namespace {
+
+/// A table by line, then the survivors with a mission that would notice each.
+void add_mutants(const MutantsResult& result, Text& text) {
   const MutantCount count = result.count();
-  text.add(fmt::format("{}, {}, {}\n", style.paint(style.strong, printable(result.catalog->file)),
-                       quantity(result.mutants.size(), "mutant"),
-                       quantity(result.missions.size(), "mission")));
-  text.add(assumptions_to_text(*result.compiled, result.assumptions, columns));
+  text.heading(fmt::format("{}, {}, {}", printable(result.catalog->file),
+                           quantity(result.mutants.size(), "mutant"),
+                           quantity(result.missions.size(), "mission")));
+  text.paragraph(describe_assumptions(*result.compiled, result.assumptions));
   add_table(result, text);
   add_survivors(result, text);
   add_summary(count, text);
   if (count.survived > 0 && !result.writes_scripts) {
     text.line("--scripts DIR writes the missions that would notice the survivors");
   }
-  return text.take();
 }
 
-std::string mutants_to_github(const MutantsResult& result) {
-  std::map<std::uint32_t, std::string> messages;  // by line
+std::vector<Diagnostic> survivors(const MutantsResult& result) {
+  std::vector<Diagnostic> findings;
   for (std::size_t place = 0; place < result.mutants.size(); ++place) {
     const MutantVerdict& verdict = result.verdicts[place];
     if (verdict.result != MutantVerdict::Result::survived) continue;
-    std::string& message = messages[result.mutants[place].lines.front()];
-    if (!message.empty()) message += '\n';
-    message += describe(*result.catalog, result.mutants[place]);
+    const Mutant& mutant = result.mutants[place];
+    std::string message = describe(*result.catalog, mutant);
     if (verdict.script) message += "\n" + indent(*verdict.script);
-    while (message.ends_with('\n')) message.pop_back();
+    message.resize(message.find_last_not_of('\n') + 1);
+    findings.push_back(notice_of_line(result.catalog->file, mutant.lines.front(),
+                                      "mutants: no mission notices that", std::move(message)));
   }
-  TestSuite suite{result.catalog->file};
-  for (const auto& [line, message] : messages) {
-    suite.cases.push_back(notice_of_line(line, "No mission notices that", message));
-  }
-  return github_format.suite(suite);
+  return findings;
 }
 
-std::span<const MutantsFormat> mutants_formats() {
-  using Given = const MutantsResult&;
-  static constexpr MutantsFormat formats[] = {
-      {"text", mutants_to_text},
-      {"json", [](Given result, const Style& /*style*/,
-                  std::size_t /*columns*/) { return mutants_to_json(result); }},
-      {"github", [](Given result, const Style& /*style*/,
-                    std::size_t /*columns*/) { return mutants_to_github(result); }},
+}  // namespace
+
+std::span<const ReportFormat<MutantsResult>> mutants_formats() {
+  static constexpr ReportFormat<MutantsResult> formats[] = {
+      {"text", as_text<add_mutants>},
+      {"json", for_programs<mutants_to_json>},
+      {"github", as_annotations<survivors>},
   };
   return formats;
 }

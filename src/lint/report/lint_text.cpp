@@ -12,10 +12,9 @@
 #include <fmt/format.h>
 
 #include "core/diagnostic/diagnostic.h"
-#include "core/report/table.h"
+#include "core/report/blocks.h"
 #include "core/report/test_report.h"
 #include "core/support/wording.h"
-#include "core/words/layout.h"
 #include "lint/report/lint_report.h"
 #include "runtime/base/text.h"
 
@@ -70,13 +69,7 @@ std::string rule_list(const Style& style) {
 
 std::string lint_github(const std::vector<LintedFile>& files) {
   std::string text;
-  for (const LintedFile& file : files) {
-    TestCase test;
-    for (const Diagnostic& finding : file.findings) {
-      test.annotations.push_back(annotation_of(finding));
-    }
-    text += github_format.suite({file.file, {}, {test}});
-  }
+  for (const LintedFile& file : files) text += annotations_to_text(file.findings);
   return text;
 }
 

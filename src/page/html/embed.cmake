@@ -47,7 +47,6 @@ function(read_parts prefix)
   set(${prefix}_hash "'sha256-${base64}'" PARENT_SCOPE)
 endfunction()
 
-read_parts(coverage coverage.css)
 read_parts(tables tables.css)
 read_parts(style ${styles})
 read_parts(script ${scripts})
@@ -80,12 +79,7 @@ inline constexpr std::string_view page_after_data[] = {
 ${script_literals}    R\"page(${page})page\",
 };
 
-/// The style of the page of coverage, which has no script.
-inline constexpr std::string_view coverage_style =
-    R\"page(${coverage_text})page\";
-inline constexpr std::string_view coverage_style_hash = \"${coverage_hash}\";
-
-/// The style of pages of tables, which have no script either.
+/// The style of pages of tables, which have no script.
 inline constexpr std::string_view tables_style =
     R\"page(${tables_text})page\";
 inline constexpr std::string_view tables_style_hash = \"${tables_hash}\";

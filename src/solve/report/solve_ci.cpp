@@ -15,8 +15,6 @@
 namespace cbc {
 namespace {
 
-constexpr std::string_view command = "cbc solve";
-
 /// Runs as tests: a script is a test suite, an expectation a test case. A run that ended early is
 /// an error, and the expectations it did not reach are skipped.
 class RunTests final : public SolveReport {
@@ -24,7 +22,7 @@ class RunTests final : public SolveReport {
   /// `is_part`: of a report that has begun already.
   RunTests(const TestFormat& format, const ReportSettings& settings, bool is_part)
       : format_(format), settings_(settings), out_(settings.out) {
-    if (!is_part) fmt::print(out_, "{}", format_.begin(command));
+    if (!is_part) fmt::print(out_, "{}", format_.begin("cbc solve"));
   }
 
   void begin_run(const CompiledCatalog& catalog, const Script& script) override {
@@ -45,15 +43,9 @@ class RunTests final : public SolveReport {
 
   void on_failure(const Failure& failure) override {
     TestCase& test = suite_.cases[places_.at(failure.step)];
-    test.status = TestCase::Status::failed;
-    test.type = "expectation";
-    test.message = failure.message;
-    const std::vector<std::string> reasons = explanation_.tell(failure);
-    test.details = fmt::format("{}: {}\n{}\n", format_place(suite_.file, failure.range.begin),
-                               failure.message, join(reasons, "\n"));
-    const std::string more = settings_.layout.is_brief ? "" : "\n" + join(reasons, "\n");
-    test.annotations.push_back(
-        {Severity::error, failure.range, "cbc expectation failed", failure.message + more});
+    std::string message = failure.message;
+    if (!settings_.layout.is_brief) message += "\n" + join(explanation_.tell(failure), "\n");
+    test.fail({"expectation failed", Severity::error, suite_.file, failure.range, message, {}});
   }
 
   /// Expectations are checked in the order of the script, so if a run ends early, the last ones
@@ -62,15 +54,13 @@ class RunTests final : public SolveReport {
     for (auto place = static_cast<std::size_t>(result.passed + result.failed);
          place < suite_.cases.size(); ++place) {
       suite_.cases[place].status = TestCase::Status::skipped;
-      suite_.cases[place].message = "the run ended earlier";
+      suite_.cases[place].more = "the run ended earlier";
     }
     if (!error.empty()) {
-      suite_.cases.push_back({"runs to its end",
-                              TestCase::Status::error,
-                              "run",
-                              error,
-                              error,
-                              {{Severity::error, {}, "cbc run ended early", error}}});
+      suite_.cases.push_back({"runs to its end"});
+      suite_.cases.back().fail(
+          {"run ended early", Severity::error, suite_.file, whole_file, error, {}},
+          TestCase::Status::error);
     }
     fmt::print(out_, "{}", format_.suite(suite_));
   }
@@ -100,11 +90,6 @@ std::unique_ptr<SolveReport> make_tests(const ReportSettings& settings) {
   return std::make_unique<RunTests>(format, settings, false);
 }
 
-template <const TestFormat& format>
-void report_unreadable(std::FILE* out, const std::vector<Diagnostic>& findings) {
-  fmt::print(out, "{}", unreadable_to_text(format, command, findings));
-}
-
 }  // namespace
 
 std::span<const SolveFormat> solve_formats() {
@@ -119,8 +104,8 @@ std::span<const SolveFormat> solve_formats() {
        [](Settings settings) -> Report {
          return std::make_unique<JsonReport>(settings.out, settings.adds);
        }},
-      {"junit", make_tests<junit_format>, report_unreadable<junit_format>},
-      {"github", make_tests<github_format>, report_unreadable<github_format>},
+      {"junit", make_tests<junit_format>},
+      {"github", make_tests<github_format>},
   };
   return formats;
 }

@@ -27,8 +27,6 @@ struct ReportSettings {
 struct SolveFormat {
   std::string_view name;
   std::unique_ptr<SolveReport> (*make)(const ReportSettings& settings);
-  /// Writes why there are no runs, in place of a report. Null: nothing is written then.
-  void (*report_unreadable)(std::FILE* out, const std::vector<Diagnostic>& findings) = nullptr;
 };
 
 /// The first one is the default.

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
+#include "core/report/blocks.h"
 #include "core/script/script.h"
-#include "core/words/layout.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/state.h"
 #include "solve/engine/what_if.h"

@@ -5,9 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "core/report/table.h"
+#include "core/report/blocks.h"
 #include "core/support/wording.h"
-#include "core/words/layout.h"
 #include "runtime/base/text.h"
 #include "sweep/engine/against.h"
 #include "sweep/report/sweep_report.h"
@@ -15,20 +14,8 @@
 namespace cbc {
 namespace {
 
-void add_names(const SweepResult& result, Text& text) {
-  const CatalogNames& names = result.against->names;
-  const auto add = [&](const std::string& label, const std::vector<std::string>& of_label) {
-    const Table table(text.style(), {{{}, {}, width_of(label)}, {}},
-                      {.columns = text_width, .breaks = Breaks::after_commas});
-    if (!of_label.empty()) text.add(table.line({label, join(of_label, ", ")}));
-  };
-  add("renamed", names.renamed);
-  add("only " + printable(result.against->old_catalog) + " has", names.only_old);
-  add("only " + printable(result.catalog) + " has", names.only_new);
-}
-
 void add_differences(const SweptComparison& comparison, const std::string& new_catalog,
-                     Text& text) {
+                     Blocks& text) {
   constexpr std::size_t most_shown = 20;
   text.line("");
   Table table(text.style(), {number_column("sequences", 9, 0),
@@ -39,7 +26,7 @@ void add_differences(const SweptComparison& comparison, const std::string& new_c
     const SweptDifference& difference = comparison.differences[place];
     table.add({difference.sequences, difference.events, difference.line});
   }
-  text.add(table.text());
+  text.table(table);
   if (comparison.differences.size() > shown) {
     text.line("  and {} more", comparison.differences.size() - shown);
   }
@@ -49,14 +36,14 @@ void add_differences(const SweptComparison& comparison, const std::string& new_c
 
 }  // namespace
 
-std::string against_to_text(const SweepResult& result, const Style& style) {
+void add_against(const SweepResult& result, Blocks& text) {
   const SweptComparison& comparison = *result.against;
-  Text text(style);
+  const Style& style = text.style();
   text.line("{}: {}",
             style.paint(style.strong, fmt::format("{} against {}", printable(result.catalog),
                                                   printable(comparison.old_catalog))),
             describe(result.settings));
-  add_names(result, text);
+  comparison.names.add_to(text, printable(comparison.old_catalog), printable(result.catalog));
   const auto add = [&](std::string_view color, std::string_view words, const std::string& more) {
     text.line("  {}{}", style.paint(color, words), more);
   };
@@ -71,7 +58,6 @@ std::string against_to_text(const SweepResult& result, const Style& style) {
     add(style.good, "all were decided alike",
         fmt::format(": {} starts, stops and finishes", comparison.events));
   }
-  return text.take();
 }
 
 }  // namespace cbc

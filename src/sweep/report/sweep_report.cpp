@@ -9,10 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "core/report/blocks.h"
 #include "core/report/search_stats.h"
-#include "core/report/table.h"
 #include "core/support/wording.h"
-#include "core/words/layout.h"
 #include "core/words/reason_words.h"
 #include "runtime/base/text.h"
 #include "sweep/engine/sweep.h"
@@ -73,7 +72,8 @@ void add_events(const SweepResult& result, Text& text) {
     all.add(counts);
   }
   add("all", all);
-  text.add(table.text() + "\n");
+  text.table(table);
+  text.line("");
 }
 
 /// The names whose count is 0.
@@ -107,7 +107,7 @@ void add_reasons(const SweepResult& result, Text& text) {
   reasons.resize(std::min(reasons.size(), most_shown));
   Table table(text.style(), {number_column({}, 9, 0), {}});
   for (const auto& [reason, count] : reasons) table.add({count, rejected_because(result, reason)});
-  text.add(table.text());
+  text.table(table);
 }
 
 void add_slowest(const SlowestEvent& slowest, std::string_view measure, std::string_view option,
@@ -142,10 +142,13 @@ std::string describe(const SweepSettings& settings) {
                      quantity(settings.shape.events, "event"), settings.seed);
 }
 
-std::string sweep_to_text(const SweepResult& result, const Style& style) {
-  if (result.against) return against_to_text(result, style);
-  Text text(style);
-  text.line("{}: {}", style.paint(style.strong, "sweep of " + printable(result.catalog)),
+namespace {
+
+/// Of a sweep against an older version only the comparison.
+void add_sweep(const SweepResult& result, Text& text) {
+  if (result.against) return add_against(result, text);
+  text.line("{}: {}",
+            text.style().paint(text.style().strong, "sweep of " + printable(result.catalog)),
             describe(result.settings));
   text.line("");
   add_events(result, text);
@@ -158,13 +161,14 @@ std::string sweep_to_text(const SweepResult& result, const Style& style) {
   add_reasons(result, text);
   add_nodes(result, text);
   if (result.times) add_times(*result.times, text);
-  return text.take();
 }
 
-std::span<const SweepFormat> sweep_formats() {
-  static constexpr SweepFormat formats[] = {
-      {"text", sweep_to_text},
-      {"json", [](const SweepResult& result, const Style&) { return sweep_to_json(result); }},
+}  // namespace
+
+std::span<const ReportFormat<SweepResult>> sweep_formats() {
+  static constexpr ReportFormat<SweepResult> formats[] = {
+      {"text", as_text<add_sweep>},
+      {"json", for_programs<sweep_to_json>},
   };
   return formats;
 }

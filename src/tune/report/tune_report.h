@@ -10,7 +10,7 @@
 
 #include "core/diagnostic/diagnostic.h"
 #include "core/property/properties.h"
-#include "core/report/table.h"
+#include "core/report/blocks.h"
 #include "tune/engine/tuner.h"
 
 // The reports of `cbc tune`.
@@ -58,8 +58,6 @@ struct FoundRepair {
 
 // Parts of reports in words.
 
-/// "85.0001 to 100"
-[[nodiscard]] std::string describe(const Interval& values);
 /// The difference, with its place, and the expectation that then fails, if there is one.
 [[nodiscard]] std::string describe(const TuneResult& result, const RunDifference& difference);
 /// Of a state: the moves that lead to it, the last of which is different.
@@ -67,24 +65,8 @@ struct FoundRepair {
                                                 const RunDifference& difference);
 /// "mission.yaml:4:3: expected ..."
 [[nodiscard]] std::string describe(const TuneResult& result, const Recording::Failure& failure);
-/// Its line; "-" if it stands nowhere.
-[[nodiscard]] std::string line_of(const TunableNumber& number);
-/// Whether there are repairs, and whether that is all.
-[[nodiscard]] std::string describe_repairs(const TuneResult& result);
-/// Of each number with repairs, with what else they change.
-[[nodiscard]] Table repairs_table(const TuneResult& result, const Style& style,
-                                  std::size_t columns = 0);
-/// The numbers that may have any value, and those that nothing has or no decision uses.
-[[nodiscard]] std::vector<std::string> describe_unaffected(const TuneResult& result);
-/// The numbers with a bound, the most fragile first.
-[[nodiscard]] std::vector<std::size_t> fragile_first(const TuneResult& result);
-
-struct TuneFormat {
-  std::string_view name;
-  std::string (*write)(const TuneResult& result, const Style& style, std::size_t columns);
-};
 /// The first one is the default.
-[[nodiscard]] std::span<const TuneFormat> tune_formats();
+[[nodiscard]] std::span<const ReportFormat<TuneResult>> tune_formats();
 
 [[nodiscard]] std::string tune_to_json(const TuneResult& result);
 [[nodiscard]] std::string tune_schema();

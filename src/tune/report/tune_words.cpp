@@ -16,19 +16,6 @@
 namespace cbc {
 namespace {
 
-std::string lines_of(const std::vector<std::uint32_t>& lines) {
-  return join(lines, ", ", [](std::uint32_t line) { return std::to_string(line); });
-}
-
-/// "the numbers in lines 6, 12"; line 0 stands for the default that is written nowhere.
-std::string numbers_in(const std::vector<std::uint32_t>& lines) {
-  if (lines == std::vector<std::uint32_t>{0}) return "the default suitability";
-  if (lines.back() == 0) {
-    return numbers_in({lines.begin(), lines.end() - 1}) + " and the default suitability";
-  }
-  return (lines.size() == 1 ? "the number in line " : "the numbers in lines ") + lines_of(lines);
-}
-
 /// What is decided in place of what, "in the words of solve".
 std::string describe_instead(const TuneResult& result, const RunDifference& difference) {
   if (!difference.before) return "it happens";
@@ -66,17 +53,6 @@ std::string describe_of_state(const TuneResult& result, const RunDifference& dif
                             file.properties[*difference.broken_property].line);
 }
 
-/// "mission.yaml:3, 8; other.yaml:12": what a repair changes.
-std::string describe_changed(const TuneResult& result, const NumberRepair& repair) {
-  std::vector<std::string> parts;
-  for (std::size_t mission = 0; mission < repair.changed.size(); ++mission) {
-    if (repair.changed[mission].empty()) continue;
-    parts.push_back(fmt::format("{}:{}", printable(result.missions[mission]),
-                                lines_of(repair.changed[mission])));
-  }
-  return join(parts, "; ");
-}
-
 }  // namespace
 
 std::vector<std::string> moves_to(const TuneResult& result, const RunDifference& difference) {
@@ -85,11 +61,6 @@ std::vector<std::string> moves_to(const TuneResult& result, const RunDifference&
     describe_moves(result.catalog, path->script, path->due, moves);
   }
   return moves;
-}
-
-std::string describe(const Interval& values) {
-  const std::string low = format_decimal(values.low, 4);
-  return values.low == values.high ? low : low + " to " + format_decimal(values.high, 4);
 }
 
 std::string describe(const TuneResult& result, const RunDifference& difference) {
@@ -132,82 +103,6 @@ std::vector<FoundRepair> nearest_repairs(const TuneResult& result) {
   std::stable_sort(found.begin(), found.end(),
                    [](const FoundRepair& a, const FoundRepair& b) { return a.change < b.change; });
   return found;
-}
-
-std::string line_of(const TunableNumber& number) {
-  return number.range ? std::to_string(number.line()) : "-";
-}
-
-std::string describe_repairs(const TuneResult& result) {
-  if (!nearest_repairs(result).empty()) {
-    return "each of these numbers alone makes all expectations hold";
-  }
-  const bool is_complete =
-      std::all_of(result.tuned.begin(), result.tuned.end(),
-                  [](const TunedNumber& one) { return one.repairs.is_complete; });
-  return is_complete ? "no number alone makes all expectations hold, whatever its value"
-                     : "none was found, but the numbers were not searched to the end";
-}
-
-Table repairs_table(const TuneResult& result, const Style& style, std::size_t columns) {
-  Table table(style,
-              {number_column("line", 4),
-               {"number"},
-               number_column("value"),
-               number_column("nearest"),
-               {"of"},
-               {"changes"}},
-              {.columns = columns});
-  for (const auto& [number, repair, change] : nearest_repairs(result)) {
-    const TunableNumber& of = result.numbers[number];
-    table.add({line_of(of),
-               describe(of, result.source),
-               format_decimal(of.value, 4),
-               {format_decimal(repair->nearest, 4), style.good},
-               join(result.tuned[number].repairs.intervals, "; ",
-                    [](const NumberRepair& one) { return describe(one.values); }),
-               describe_changed(result, *repair)});
-  }
-  return table;
-}
-
-std::vector<std::string> describe_unaffected(const TuneResult& result) {
-  std::size_t unaffected = 0;
-  std::vector<std::uint32_t> unused;
-  std::vector<std::uint32_t> undecisive;
-  for (std::size_t number = 0; number < result.numbers.size(); ++number) {
-    const TunableNumber& of = result.numbers[number];
-    if (of.uses.empty()) {
-      unused.push_back(of.line());
-    } else if (!result.tuned[number].is_used) {
-      undecisive.push_back(of.line());
-    } else if (!result.tuned[number].tolerance.distance(of.value)) {
-      ++unaffected;
-    }
-  }
-  std::vector<std::string> lines;
-  if (unaffected > 0) {
-    lines.push_back(
-        fmt::format("{} may have any value from 0 to 100", quantity(unaffected, "number")));
-  }
-  if (!unused.empty()) lines.push_back("nothing has " + numbers_in(unused));
-  if (!undecisive.empty()) {
-    lines.push_back("no decision of any state uses " + numbers_in(undecisive));
-  }
-  return lines;
-}
-
-std::vector<std::size_t> fragile_first(const TuneResult& result) {
-  std::vector<std::pair<Millionths, std::size_t>> found;
-  for (std::size_t number = 0; number < result.numbers.size(); ++number) {
-    const auto distance = result.tuned[number].tolerance.distance(result.numbers[number].value);
-    if (distance) found.emplace_back(*distance, number);
-  }
-  std::sort(found.begin(), found.end());
-  std::vector<std::size_t> numbers;
-  numbers.reserve(found.size());
-  for (const auto& [distance, number] : found) numbers.push_back(number);
-  return numbers;
 }
 
 }  // namespace cbc

@@ -79,7 +79,8 @@ void add_how_to_read_outcomes(Text& text) {
   constexpr std::string_view how_to_read =
       "An outcome is shown with the first of the shortest sequences of events that lead to it; "
       "'where' names what is not as at first then.";
-  text.add("\n" + wrap_line(how_to_read, text_width, 0) + "\n");
+  text.line("");
+  text.paragraph(how_to_read);
 }
 
 }  // namespace cbc

@@ -11,9 +11,9 @@
 
 #include "core/diagnostic/diagnostic.h"
 #include "core/property/properties.h"
+#include "core/report/blocks.h"
 #include "core/script/runner.h"
 #include "core/script/script.h"
-#include "core/words/layout.h"
 #include "explore/properties/verification.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "verify/engine/effects.h"
@@ -188,13 +188,9 @@ void add_overrides(const VerifyResult& result, Text& text);
 [[nodiscard]] std::string verify_to_html(const VerifyResult& result);
 
 /// A format of `cbc verify`.
-struct VerifyFormat {
-  std::string_view name;
-  std::string (*write)(const VerifyResult& result, const Style& style);
+struct VerifyFormat : ReportFormat<VerifyResult> {
   bool needs_tests = false;    ///< properties or a comparison; it has no place for anything else
   bool needs_effects = false;  ///< the same for effects of faults
-  /// Writes why there is no result, in place of a report. Null: nothing is written then.
-  std::string (*report_unreadable)(const std::vector<Diagnostic>& findings) = nullptr;
 };
 
 /// The first one is the default.

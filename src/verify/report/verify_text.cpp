@@ -475,16 +475,9 @@ void add_comparison(const VerifyResult& result, Text& text) {
   const std::string title = style.paint(style.strong, new_name + " against " + old_name);
   text.add((text.is_empty() ? "" : "\n") + title + "\n");
   if (result.parts.empty()) {
-    text.add(assumptions_to_text(*result.catalog, {reported.assumptions, {}}));
+    text.paragraph(describe_assumptions(*result.catalog, {reported.assumptions, {}}));
   }
-  const auto add_names = [&](const std::string& label, const std::vector<std::string>& names) {
-    const Table table(style, {{{}, {}, width_of(label)}, {}},
-                      {.columns = text_width, .breaks = Breaks::after_commas});
-    if (!names.empty()) text.add(table.line({label, join(names, ", ")}));
-  };
-  add_names("renamed", comparison.names.renamed);
-  add_names("only " + old_name + " has", comparison.names.only_old);
-  add_names("only " + new_name + " has", comparison.names.only_new);
+  comparison.names.add_to(text, old_name, new_name);
   bool is_any_missing = false;
   for (const DirectDifference& difference : comparison.direct) {
     text.line("  {} {}", style.paint(style.bad, "different:"), difference.line);
@@ -523,7 +516,7 @@ void add_part(const VerifyResult& result, const VerifyPart& part, Text& text) {
   const StatedAssumptions stated = part.file == nullptr
                                        ? StatedAssumptions{default_assumptions(catalog), {}}
                                        : StatedAssumptions{part.file->assumptions, part.file->path};
-  text.add(assumptions_to_text(catalog, stated));
+  text.paragraph(describe_assumptions(catalog, stated));
   if (part.is_about_groups()) {
     GroupText(result, part, stated.assumptions, text).write();
   } else {

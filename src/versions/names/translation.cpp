@@ -308,4 +308,17 @@ CompiledCatalog without_missing_starts(const CompiledCatalog& catalog,
                                  [&](TaskId task) { return to_other.tasks[task] == none; });
 }
 
+void CatalogNames::add_to(Blocks& report, const std::string& old_catalog,
+                          const std::string& new_catalog) const {
+  const auto add = [&](const std::string& label, const std::vector<std::string>& names) {
+    if (names.empty()) return;
+    Table table(report.style(), {{}, {}}, {.columns = text_width, .breaks = Breaks::after_commas});
+    table.add({label, join(names, ", ")});
+    report.table(table);
+  };
+  add("renamed", renamed);
+  add("only " + old_catalog + " has", only_old);
+  add("only " + new_catalog + " has", only_new);
+}
+
 }  // namespace cbc

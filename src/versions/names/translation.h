@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/property/properties.h"
+#include "core/report/blocks.h"
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "versions/names/renames.h"
@@ -24,6 +25,9 @@ struct CatalogNames {
   std::vector<std::string> only_old;
   std::vector<std::string> only_new;
   std::vector<std::string> renamed;
+
+  /// A line for each kind. `old_catalog`, `new_catalog`: their names.
+  void add_to(Blocks& report, const std::string& old_catalog, const std::string& new_catalog) const;
 };
 
 /// The numbers that one catalog's tasks, behaviors and variables have in another; none: it does not
