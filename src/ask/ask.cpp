@@ -175,7 +175,7 @@ std::vector<Reason> constraints_on(const CompiledCatalog& catalog, const Asked& 
 void RelaxedQuestions::add(const Asked& question, const ValueSets* sets,
                            const SituationSpace* space) {
   const CompiledCatalog& catalog = space_.catalog();
-  nothing_present_.resize(most_in_a_group(catalog.group_tasks), none);
+  if (present_.empty()) present_.resize(most_in_a_group(catalog.group_tasks), none);
   One& one = questions_.emplace_back();
   one.space = space != nullptr ? space : &space_;
   one.sets = sets != nullptr ? *sets : space_.all();
@@ -183,8 +183,8 @@ void RelaxedQuestions::add(const Asked& question, const ValueSets* sets,
     Part& part = one.parts.emplace_back();
     part.group = demanded.group;
     for (const Demand& demand : demanded.demands) part.tasks.push_back(demand.task);
-    part.search = std::make_unique<ConflictSearch>(catalog, demanded.group, nothing_present_,
-                                                   demanded.demands);
+    part.search =
+        std::make_unique<ConflictSearch>(catalog, demanded.group, present_, demanded.demands);
     if (demanded.low_task != none) {
       part.search->keep_below(demanded.low_task, demanded.low_minimum);
     }
@@ -193,12 +193,17 @@ void RelaxedQuestions::add(const Asked& question, const ValueSets* sets,
 
 std::vector<Reason> RelaxedQuestions::conflict(std::span<const Reason> candidates) {
   if (candidates.size() > most_constraints) return {};
-  std::vector<bool> is_used(candidates.size(), false);
-  if (solve(candidates, &is_used) != Feasibility::no) return {};
+  std::vector<Reason> used(candidates.begin(), candidates.end());
   // Most of them have no part in the proofs, so it need not be found which of them are needed.
-  std::vector<Reason> used;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (is_used[i]) used.push_back(candidates[i]);
+  for (std::size_t before = used.size() + 1; used.size() < before;) {
+    before = used.size();
+    std::vector<bool> is_used(before, false);
+    if (solve(used, &is_used) != Feasibility::no) return {};
+    std::vector<Reason> some;
+    for (std::size_t i = 0; i < before; ++i) {
+      if (is_used[i]) some.push_back(std::move(used[i]));
+    }
+    used = std::move(some);
   }
   std::vector<Reason> minimal = minimal_conflict_set(
       used, [this](std::span<const Reason> some) { return solve(some) != Feasibility::no; });
@@ -227,7 +232,10 @@ Feasibility RelaxedQuestions::solve(std::span<const Reason> reasons, std::vector
       return Feasibility::yes;
     };
     const Feasibility of_one = SituationSplits(*one.space).find(one.sets, search, &conditions);
-    if (of_one == Feasibility::yes) return of_one;
+    if (of_one == Feasibility::yes) {
+      answered_ = &one;
+      return of_one;
+    }
     if (of_one == Feasibility::unknown) answer = of_one;
   }
   return answer;
@@ -252,15 +260,16 @@ Feasibility RelaxedQuestions::solve(Part& part, std::span<const Reason> reasons,
     }
     reasons = some;
   }
-  if (effort_.is_over()) return Feasibility::unknown;
-  const std::uint64_t before = part.search->effort();
-  const Feasibility answer = part.search->solve(reasons, effort_.left());
-  effort_.spend(part.search->effort() - before);
+  const Feasibility answer = part.search->solve(reasons, effort_);
   if (answer != Feasibility::no || is_used == nullptr) return answer;
   for (std::size_t i = 0; i < reasons.size(); ++i) {
     if (part.search->is_used()[i] != 0) (*is_used)[places.empty() ? i : places[i]] = true;
   }
   return answer;
+}
+
+std::vector<ValueId> RelaxedQuestions::values_of(TaskId task) {
+  return answered_->parts.back().search->values_of(task);
 }
 
 /// The behaviors that perform what is demanded, and all that this requires.

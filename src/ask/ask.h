@@ -9,8 +9,8 @@
 
 #include "ask/assignment_search.h"
 #include "ask/conflict/conflict_search.h"
+#include "ask/conflict/effort.h"
 #include "ask/conflict/reasons.h"
-#include "ask/effort.h"
 #include "ask/situation_space.h"
 #include "runtime/compiled/compiled_catalog.h"
 
@@ -118,17 +118,24 @@ inline constexpr std::size_t most_constraints = 20'000;
 /// has an answer, and if not, why.
 class RelaxedQuestions {
  public:
-  /// All must outlive this object.
-  RelaxedQuestions(const SituationSpace& space, Effort& effort) : space_(space), effort_(effort) {}
+  /// All must outlive this object. `present`: by task of the only group, the value index that it
+  /// may keep although its behavior is unavailable, or none; empty: nothing runs.
+  RelaxedQuestions(const SituationSpace& space, Effort& effort,
+                   std::vector<std::uint32_t> present = {})
+      : space_(space), effort_(effort), present_(std::move(present)) {}
 
   /// One more question, in the situations of a space that have values of the sets; null: in all,
   /// and in the space of the other questions.
   void add(const Asked& question, const ValueSets* sets = nullptr,
            const SituationSpace* space = nullptr);
 
+  /// Whether one of the questions has an answer.
   [[nodiscard]] Feasibility solve(std::span<const Reason> reasons) {
     return solve(reasons, nullptr);
   }
+  /// After the answer yes: the values of a task of the last question's group and of all that it
+  /// requires.
+  [[nodiscard]] std::vector<ValueId> values_of(TaskId task);
 
   /// A minimal set out of `candidates` with which no question has an answer. Empty if one has, or
   /// if it takes too long to find.
@@ -154,7 +161,8 @@ class RelaxedQuestions {
   const SituationSpace& space_;
   Effort& effort_;
   std::deque<One> questions_;
-  std::vector<std::uint32_t> nothing_present_;
+  std::vector<std::uint32_t> present_;
+  const One* answered_ = nullptr;  ///< the last question that had an answer
 };
 
 }  // namespace cbc

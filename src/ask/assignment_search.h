@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "ask/conflict/conflict_search.h"
+#include "ask/conflict/effort.h"
 #include "ask/conflict/reasons.h"
-#include "ask/effort.h"
 #include "ask/situation_space.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/solver/problem.h"

@@ -1,16 +1,14 @@
 #include "why/conflict.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <utility>
 
-#include "ask/conflict/conflict_search.h"
+#include "ask/ask.h"
 
 namespace cbc {
 namespace {
-
-/// With more reasons than this, finding a minimal conflict set takes too long.
-constexpr std::size_t most_candidates = 20'000;
 
 /// Why a behavior is not available: a script denied it, or it does not fit. `fit_first`: what to
 /// say if both hold.
@@ -41,7 +39,7 @@ class Candidates {
   std::vector<Reason> collect(std::span<const Demands> ways) {
     find_relevant_tasks(ways);
     for (const TaskId task : relevant_.tasks()) {
-      add_exclusions(catalog_, task, relevant_, most_candidates + 1, reasons_);
+      add_exclusions(catalog_, task, relevant_, most_constraints + 1, reasons_);
       add_state(task);
       add_minimum(catalog_, task, reasons_);
     }
@@ -137,72 +135,6 @@ class Candidates {
   std::vector<Reason> reasons_;
 };
 
-/// One search for each of several ways, with a limit of effort for all together, and a deadline if
-/// there is one.
-class ConflictSearches {
- public:
-  ConflictSearches(std::vector<ConflictSearch>& searches, const ConflictSearch::Deadline& deadline)
-      : searches_(searches), deadline_(deadline) {}
-
-  /// Whether one of the ways has a solution. Unknown counts as yes, so that no reason is left out
-  /// by mistake.
-  [[nodiscard]] bool has_solution(std::span<const Reason> reasons) {
-    return std::any_of(searches_.begin(), searches_.end(), [&](ConflictSearch& search) {
-      return solve(search, reasons) != Feasibility::no;
-    });
-  }
-
-  /// The values of a task and of all that it requires, in a solution of one of the ways. Empty if
-  /// there is none; nothing where that takes too long.
-  [[nodiscard]] std::optional<std::vector<ValueId>> find_values(std::span<const Reason> reasons,
-                                                                TaskId task) {
-    for (ConflictSearch& search : searches_) {
-      switch (solve(search, reasons)) {
-        case Feasibility::no:
-          break;
-        case Feasibility::yes:
-          return search.values_of(task);
-        case Feasibility::unknown:
-          return std::nullopt;
-      }
-    }
-    return std::vector<ValueId>();
-  }
-
-  /// Keeps only the reasons that a proof of no solution used. False if there is no proof.
-  [[nodiscard]] bool keep_used(std::vector<Reason>& reasons) {
-    for (std::size_t before = reasons.size() + 1; reasons.size() < before;) {
-      before = reasons.size();
-      if (has_solution(reasons)) return false;
-      std::vector<Reason> used;
-      for (std::size_t index = 0; index < reasons.size(); ++index) {
-        const bool is_used = std::any_of(
-            searches_.begin(), searches_.end(),
-            [index](const ConflictSearch& search) { return search.is_used()[index] != 0; });
-        if (is_used) used.push_back(reasons[index]);
-      }
-      reasons = std::move(used);
-    }
-    return true;
-  }
-
-  [[nodiscard]] bool is_exhausted() const { return effort_left_ == 0; }
-
- private:
-  [[nodiscard]] Feasibility solve(ConflictSearch& search, std::span<const Reason> reasons) {
-    if (is_exhausted()) return Feasibility::unknown;
-    const std::uint64_t before = search.effort();
-    const Feasibility answer = search.solve(reasons, effort_left_, deadline_);
-    effort_left_ -= std::min(search.effort() - before, effort_left_);
-    if (deadline_ && std::chrono::steady_clock::now() >= *deadline_) effort_left_ = 0;
-    return answer;
-  }
-
-  std::vector<ConflictSearch>& searches_;
-  const ConflictSearch::Deadline deadline_;
-  std::uint64_t effort_left_ = most_effort_of_answer;
-};
-
 /// Whether a reason says which behaviors can perform what, and with what else.
 bool is_about_behaviors(const Reason& reason) {
   switch (reason.kind) {
@@ -248,7 +180,7 @@ Millionths performance_of(const CompiledCatalog& catalog, std::span<const ValueI
 /// The values with which the task does best where these reasons hold. Empty if they leave no
 /// solution; nothing where that takes too long.
 std::optional<std::vector<ValueId>> find_best(const CompiledCatalog& catalog,
-                                              ConflictSearches& searches, TaskId task,
+                                              RelaxedQuestions& questions, TaskId task,
                                               std::vector<Reason> reasons) {
   const std::size_t place = reasons.size();
   reasons.emplace_back();
@@ -256,10 +188,11 @@ std::optional<std::vector<ValueId>> find_best(const CompiledCatalog& catalog,
   reasons[place].task = task;
   std::vector<ValueId> best;
   for (;;) {
-    auto values = searches.find_values(reasons, task);
-    if (!values) return std::nullopt;
-    if (values->empty()) return best;
-    best = std::move(*values);
+    const Feasibility answer = questions.solve(reasons);
+    if (answer == Feasibility::unknown) return std::nullopt;
+    if (answer == Feasibility::no) return best;
+    best = questions.values_of(task);
+    if (best.empty()) return best;
     Millionths& minimum = reasons[place].minimum_performance;
     minimum = std::max(minimum, performance_of(catalog, best)) + 1;
     if (minimum > one_million) return best;
@@ -269,13 +202,13 @@ std::optional<std::vector<ValueId>> find_best(const CompiledCatalog& catalog,
 /// Tells of each minimum performance of a conflict set how near to it one can come: where all else
 /// holds, also the faults that are known but were not tried, or, if something else leaves no
 /// solution either, with the behaviors that can be chosen.
-void add_best(const CompiledCatalog& catalog, ConflictSearches& searches,
+void add_best(const CompiledCatalog& catalog, RelaxedQuestions& questions,
               std::span<const Reason> candidates, std::vector<Reason>& conflict_set) {
   const std::vector<Reason> plain = conflict_set;
   for (Reason& reason : conflict_set) {
     if (reason.kind != Reason::Kind::performance) continue;
     const auto find = [&](auto counts) {
-      return find_best(catalog, searches, reason.task,
+      return find_best(catalog, questions, reason.task,
                        reasons_beside(reason, plain, candidates, counts));
     };
     auto best = find([](const Reason&) { return true; });
@@ -317,6 +250,24 @@ std::vector<std::uint32_t> present_values(const CompiledCatalog& catalog,
   return present;
 }
 
+/// The values of all variables.
+SituationPart situation_of(const State& state) {
+  SituationPart situation;
+  for (std::uint32_t variable = 0; variable < state.variables().size(); ++variable) {
+    situation.variables.push_back({variable, state.value_of(variable)});
+  }
+  return situation;
+}
+
+/// For one answer: a measure of time that does not depend on the machine (some tenths of a second),
+/// and the deadline, if there is one.
+Effort effort_of(const Circumstances& circumstances) {
+  if (!circumstances.deadline) return Effort(most_effort_of_answer);
+  return Effort(most_effort_of_answer, [deadline = *circumstances.deadline] {
+    return std::chrono::steady_clock::now() >= deadline;
+  });
+}
+
 /// A minimal conflict set of the event together with all of the `ways`. Empty if the event alone
 /// leaves no solution; nothing where that takes too long.
 std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
@@ -325,26 +276,20 @@ std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
   const Trigger& trigger = circumstances.trigger;
   Candidates collector(catalog, circumstances);
   std::vector<Reason> candidates = collector.collect(ways);
-  if (candidates.size() > most_candidates) return std::nullopt;
-
-  const std::vector<std::uint32_t> present = present_values(catalog, circumstances);
-  std::vector<ConflictSearch> searches;
-  searches.reserve(ways.size());
+  const SituationSpace space(catalog, situation_of(circumstances.state), {});
+  Effort effort = effort_of(circumstances);
+  RelaxedQuestions questions(space, effort, present_values(catalog, circumstances));
   for (const Demands& way : ways) {
     Demands demands = demands_of(catalog, circumstances.state, trigger);
     demands.insert(demands.end(), way.begin(), way.end());
-    searches.emplace_back(catalog, trigger.group, present, std::move(demands));
+    questions.add({{trigger.group, std::move(demands)}});
   }
-  ConflictSearches all(searches, circumstances.deadline);
-  if (!all.has_solution({})) return std::vector<Reason>();
-  std::vector<Reason> used = candidates;
-  if (!all.keep_used(used)) return std::nullopt;
-  std::vector<Reason> reasons = minimal_conflict_set(
-      used, [&all](std::span<const Reason> some) { return all.has_solution(some); });
-  if (all.is_exhausted()) return std::nullopt;
+  if (questions.solve({}) == Feasibility::no) return std::vector<Reason>();
+  std::vector<Reason> reasons = questions.conflict(candidates);
+  if (reasons.empty()) return std::nullopt;
   const std::vector<Reason> faults = collector.untried_faults();
   candidates.insert(candidates.end(), faults.begin(), faults.end());
-  add_best(catalog, all, candidates, reasons);
+  add_best(catalog, questions, candidates, reasons);
   return reasons;
 }
 
@@ -359,11 +304,11 @@ bool needs_event(const CompiledCatalog& catalog, const Circumstances& circumstan
                  std::span<const Demands> ways, std::span<const Reason> reasons) {
   const Trigger& trigger = circumstances.trigger;
   if (!stops_tasks(trigger) || reasons.empty()) return false;
-  const std::vector<std::uint32_t> present = present_values(catalog, circumstances);
-  return std::any_of(ways.begin(), ways.end(), [&](const Demands& way) {
-    ConflictSearch search(catalog, trigger.group, present, way);
-    return search.solve(reasons, most_effort_of_answer) == Feasibility::yes;
-  });
+  const SituationSpace space(catalog, situation_of(circumstances.state), {});
+  Effort effort = effort_of(circumstances);
+  RelaxedQuestions questions(space, effort, present_values(catalog, circumstances));
+  for (const Demands& way : ways) questions.add({{trigger.group, way}});
+  return questions.solve(reasons) == Feasibility::yes;
 }
 
 /// The event itself.

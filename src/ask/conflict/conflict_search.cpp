@@ -121,7 +121,7 @@ bool RelaxedTrail::follow_value(LocalTask /*task*/, ValueId value) {
 }
 
 ConflictSearch::ConflictSearch(const CompiledCatalog& catalog, GroupId group,
-                               const std::vector<std::uint32_t>& present, Demands demands)
+                               std::span<const std::uint32_t> present, Demands demands)
     : catalog_(catalog),
       present_(present),
       demands_(std::move(demands)),
@@ -136,9 +136,9 @@ ConflictSearch::ConflictSearch(const CompiledCatalog& catalog, GroupId group,
 
 /// As in Domains, tasks that nothing needs can be left out, so a problem is solved when each needed
 /// task has one value; only to keep a performance low, a task that nothing needs may have to run.
-Feasibility ConflictSearch::solve(std::span<const Reason> reasons, std::uint64_t most_effort,
-                                  const Deadline& deadline) {
-  const std::uint64_t effort_before = effort();
+Feasibility ConflictSearch::solve(std::span<const Reason> reasons, Effort& left) {
+  if (left.is_over()) return Feasibility::unknown;
+  std::uint64_t spent = effort();
   restarts_.clear();
   is_used_.assign(reasons.size(), 0);
   used_.clear();
@@ -149,8 +149,9 @@ Feasibility ConflictSearch::solve(std::span<const Reason> reasons, std::uint64_t
   bool is_consistent = begin(reasons);
   for (;;) {
     is_consistent = is_consistent && propagate(reasons);
-    if (effort() - effort_before > most_effort) return Feasibility::unknown;
-    if (deadline && std::chrono::steady_clock::now() >= *deadline) return Feasibility::unknown;
+    left.spend(effort() - spent);
+    spent = effort();
+    if (left.is_over()) return Feasibility::unknown;
     if (!is_consistent) {
       if (!learn()) return Feasibility::no;
       is_consistent = true;

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <vector>
 
+#include "ask/conflict/effort.h"
 #include "ask/conflict/reasons.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/solver/conflict_analysis.h"
@@ -87,9 +86,9 @@ enum class Feasibility : std::uint8_t { no, yes, unknown };
 /// constraints. A proof of no solution yields the reasons that it used.
 class ConflictSearch {
  public:
-  /// `present`: by task of the group, its value index, or none.
+  /// `present`: by task of the group, its value index, or none; has to stay where it is.
   ConflictSearch(const CompiledCatalog& catalog, GroupId group,
-                 const std::vector<std::uint32_t>& present, Demands demands);
+                 std::span<const std::uint32_t> present, Demands demands);
 
   /// Admits only solutions in which `task` runs and its performance is below `minimum`.
   void keep_below(TaskId task, Millionths minimum) {
@@ -97,12 +96,8 @@ class ConflictSearch {
     low_minimum_ = minimum;
   }
 
-  using Deadline = std::optional<std::chrono::steady_clock::time_point>;
-
-  /// The answer is unknown where it would take more than `most_effort`, or longer than to the
-  /// deadline.
-  [[nodiscard]] Feasibility solve(std::span<const Reason> reasons, std::uint64_t most_effort,
-                                  const Deadline& deadline = std::nullopt);
+  /// The answer is unknown where that takes more than the effort, which is spent.
+  [[nodiscard]] Feasibility solve(std::span<const Reason> reasons, Effort& left);
 
   /// After the answer yes: the values of a task and of all that it requires; empty if nothing needs
   /// the task.
@@ -112,11 +107,11 @@ class ConflictSearch {
   /// solution by themselves.
   [[nodiscard]] const std::vector<std::uint8_t>& is_used() const { return is_used_; }
 
+ private:
   /// Literals, reasons and values visited so far: a measure of time that does not depend on the
   /// machine.
   [[nodiscard]] std::uint64_t effort() const { return effort_ + trail_.effort(); }
 
- private:
   [[nodiscard]] bool begin(std::span<const Reason> reasons);
   [[nodiscard]] bool demand(const Demand& demand);
   void sort(std::span<const Reason> reasons);
@@ -140,7 +135,7 @@ class ConflictSearch {
 
   // Tasks are counted within the group.
   const CompiledCatalog& catalog_;
-  const std::vector<std::uint32_t>& present_;
+  const std::span<const std::uint32_t> present_;
   const Demands demands_;
   const TaskId first_task_;
   const std::uint32_t task_count_;
