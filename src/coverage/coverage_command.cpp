@@ -85,7 +85,7 @@ void add_coverage_command(Program& program) {
   command.output_option(options->output);
   command.option("--fail-under", options->fail_under, percent(),
                  "Exit with 1 if fewer goals are met than this");
-  command.jobs_option(options->jobs, "Run N scripts at once");
+  command.jobs_option(options->jobs, "Use N threads");
   command.add_confinement();
 
   command.group("Proofs");

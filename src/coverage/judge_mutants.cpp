@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -115,15 +116,21 @@ int judge_mutants(const CoverageOptions& options, const CoverageQuestion& questi
   // States of one mutant; the largest groups of catalogs have far more, and nobody would wait.
   constexpr std::uint64_t most_states = 1'000'000;
   const double seconds = options.limits.seconds();
-  const Deadline deadline(seconds);
+  const StopSignals signals;
+  const Budget budget = budget_of(options, signals);
+  const Budget::Clock::time_point begin = Budget::Clock::now();
   Progress progress("judging", 1);
   progress.begin(std::string(catalog.file));
   JudgingOptions of_judging;
   of_judging.max_states = options.limits.max_states > 0 ? options.limits.max_states : most_states;
-  of_judging.max_memory = options.limits.memory();
+  of_judging.max_memory = budget.max_memory;
   of_judging.jobs = thread_count(options.jobs);
-  of_judging.is_stopped = [&] { return deadline.has_come(); };
-  if (seconds > 0) of_judging.seconds_left = [&] { return deadline.seconds_left(); };
+  of_judging.is_stopped = [&] { return budget.find_end().has_value(); };
+  if (seconds > 0) {
+    of_judging.seconds_left = [&] {
+      return seconds - std::chrono::duration<double>(Budget::Clock::now() - begin).count();
+    };
+  }
   of_judging.on_progress = [&](bool is_compared, std::size_t done, std::size_t count) {
     progress.show(fmt::format(" ({} of {} {})", done, count,
                               is_compared ? "compared with it" : "mutants by the missions"));

@@ -43,11 +43,10 @@ void watch_missions(const std::vector<Mission>& missions, std::optional<std::uin
   }
 }
 
-GoalSearchOptions search_options(const StateLimits& limits) {
-  GoalSearchOptions options;
-  if (limits.max_states > 0) options.max_states = limits.max_states;
-  if (!limits.max_memory.empty()) options.max_memory = limits.memory();
-  return options;
+Budget budget_of(const CoverageOptions& options, const StopSignals& signals) {
+  Budget budget = options.limits.budget().started();
+  budget.is_stopped = [&signals] { return signals.have_come(); };
+  return budget;
 }
 
 namespace {
@@ -146,17 +145,13 @@ std::optional<std::vector<StatedAssumptions>> find_assumptions(const Coverage& c
 
 /// False if nothing can be proven; the reason is printed.
 bool prove(CatalogCoverage& coverage, const StatedAssumptions& stated,
-           const CoverageOptions& options, const Deadline& deadline) {
+           const CoverageOptions& options, const Budget& budget) {
   const CompiledCatalog& catalog = coverage.catalog();
-  GroupProgress progress("proving", catalog.group_count());
-  GoalProofOptions of_proof;
-  of_proof.search = search_options(options.limits);
-  of_proof.search.on_progress = [&](GroupId group, std::uint64_t states) {
-    progress.show(group, states);
-    return deadline.has_time_for(group, catalog.group_count());
-  };
+  Progress progress("proving", catalog.group_count());
+  GoalSearchOptions of_proof{budget, thread_count(options.jobs)};
+  of_proof.budget.tell = progress.listener();
   GoalProof proof = prove_unreachable(catalog, coverage.goals(), stated.assumptions, of_proof);
-  progress.line().clear();
+  progress.clear();
   if (proof.error) {
     complain("--prove: {}", *proof.error);
     return false;
@@ -187,9 +182,10 @@ bool prove(CatalogCoverage& coverage, const StatedAssumptions& stated,
 int report(Coverage coverage, const std::vector<StatedAssumptions>& assumptions,
            const CoverageOptions& options) {
   if (!assumptions.empty()) {
-    const Deadline deadline(options.limits.seconds());
+    const StopSignals signals;
+    const Budget budget = budget_of(options, signals);
     for (std::size_t place = 0; place < assumptions.size(); ++place) {
-      if (!prove(coverage.catalogs[place], assumptions[place], options, deadline)) {
+      if (!prove(coverage.catalogs[place], assumptions[place], options, budget)) {
         return exit_unusable;
       }
     }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include <fmt/core.h>
 
 #include "core/command_line/command_line.h"
+#include "core/files/ordered_work.h"
 #include "core/files/output.h"
 #include "core/files/read.h"
 #include "core/support/wording.h"
@@ -159,25 +161,25 @@ int MissionFolder::replace(const std::vector<File>& files) {
   return exit_ok;
 }
 
-/// By goal: whether the missions meet it, as far as they ran before the deadline. Empty if one of
+/// By goal: whether the missions meet it, as far as they ran before the end. Empty if one of
 /// them ends early; the reason is printed.
 std::optional<std::vector<std::uint8_t>> goals_met_by(const std::vector<Mission>& missions,
                                                       const std::vector<Goal>& goals,
                                                       const CoverageOptions& options,
-                                                      const Deadline& deadline) {
+                                                      const Budget& budget) {
   std::vector<std::uint8_t> met(goals.size(), 0);
   CoordinatorOptions coordination;
-  coordination.is_stopped = [&] { return deadline.has_come(); };
+  coordination.is_stopped = [&] { return budget.find_end().has_value(); };
   bool has_ended = false;
   watch_missions(
       missions, options.jobs, coordination,
       [&](const Mission&) -> const std::vector<Goal>& { return goals; },
       [&](const Mission& mission, const MonitoredResult& watched) {
         const std::string reason = describe_end(watched.result, coordination);
-        has_ended = !reason.empty() && !deadline.has_come();
+        has_ended = !reason.empty() && !budget.find_end();
         if (has_ended) complain("{}: {}", quote(mission.script.file), reason);
         for (std::size_t goal = 0; goal < goals.size(); ++goal) met[goal] |= watched.met[goal];
-        return !has_ended && !deadline.has_come();
+        return !has_ended && !budget.find_end();
       });
   if (has_ended) return std::nullopt;
   return met;
@@ -186,28 +188,31 @@ std::optional<std::vector<std::uint8_t>> goals_met_by(const std::vector<Mission>
 /// Finds the scripts, and shows the progress.
 MissingMissions find_missing(const CoverageOptions& options, const CoverageQuestion& question,
                              const std::vector<Goal>& goals, const std::vector<std::uint8_t>& met,
-                             const Deadline& deadline) {
+                             const Budget& budget) {
   constexpr double for_planning = 0.2;
   const CompiledCatalog& catalog = *question.catalog;
-  GroupProgress progress("exploring", catalog.group_count());
+  Progress progress("exploring", catalog.group_count());
   MissingMissionOptions of_search;
   of_search.catalog = path_in_script(options.paths.front(), *options.write_missing);
-  of_search.exploration = search_options(options.limits);
-  of_search.exploration.on_progress = [&](GroupId group, std::uint64_t states) {
-    progress.show(group, states);
-    return deadline.has_time_for(group, catalog.group_count(), for_planning);
-  };
+  of_search.exploration = {budget, thread_count(options.jobs), for_planning};
+  of_search.exploration.budget.tell = progress.listener();
   of_search.on_mission = [&](std::size_t number) {
-    progress.line().show(fmt::format(" ({})", quantity(number, "test")));
+    progress.show(fmt::format(" ({})", quantity(number, "test")));
   };
-  of_search.is_stopped = [&] { return deadline.has_come(); };
-  of_search.is_over = [&] { return deadline.is_over(); };
+  // The end came so long ago that whoever set it waits.
+  std::optional<Budget::Clock::time_point> end;
+  of_search.is_over = [&] {
+    constexpr std::chrono::seconds patience(2);
+    const auto now = Budget::Clock::now();
+    if (!end && budget.find_end()) end = now;
+    return end && now - *end > patience;
+  };
   return find_missing_missions(catalog, goals, met, question.assumptions.assumptions, of_search);
 }
 
 /// What ended the work, and how far it had come. Empty if nothing did.
 std::string describe_end_of(const MissingMissions& missing, bool were_all_run, std::size_t groups,
-                            const CoverageOptions& options, const Deadline& deadline) {
+                            const CoverageOptions& options, const Budget& budget) {
   if (missing.is_complete()) return {};
   if (missing.reached == MissingMissions::Phase::done) return "a limit ended the exploration";
   const std::string limit = format_decimal(parse_seconds(options.limits.time_limit).value, 6);
@@ -223,9 +228,11 @@ std::string describe_end_of(const MissingMissions& missing, bool were_all_run, s
   } else {
     place = fmt::format("after {} had been found", quantity(missing.missions.size(), "test"));
   }
-  return fmt::format(
-      "{} {}", deadline.is_late() ? fmt::format("--time-limit {} ended it", limit) : "interrupted",
-      place);
+  return fmt::format("{} {}",
+                     budget.find_end() == Budget::End::time_limit
+                         ? fmt::format("--time-limit {} ended it", limit)
+                         : "interrupted",
+                     place);
 }
 
 /// Which command looks at what these scripts leave.
@@ -249,11 +256,12 @@ int write_missing(const CoverageOptions& options, const CoverageQuestion& questi
   if (!folder.open()) return exit_unusable;
   const CompiledCatalog& catalog = *question.catalog;
   const std::vector<Goal> goals = find_goals(catalog);
-  const Deadline deadline(options.limits.seconds());
-  const auto met = goals_met_by(question.missions, goals, options, deadline);
+  const StopSignals signals;
+  const Budget budget = budget_of(options, signals);
+  const auto met = goals_met_by(question.missions, goals, options, budget);
   if (!met) return exit_unusable;
-  const bool were_all_run = question.missions.empty() || !deadline.has_come();
-  const MissingMissions missing = find_missing(options, question, goals, *met, deadline);
+  const bool were_all_run = question.missions.empty() || !budget.find_end();
+  const MissingMissions missing = find_missing(options, question, goals, *met, budget);
   if (missing.error) return complain("--write-missing: {}", *missing.error);
   if (!missing.fault.empty()) {
     complain("--write-missing: {}", missing.fault);
@@ -268,7 +276,7 @@ int write_missing(const CoverageOptions& options, const CoverageQuestion& questi
   if (options.paths.size() > 1) written.missions = question.missions.size();
   written.missing = &missing;
   written.incomplete =
-      describe_end_of(missing, were_all_run, catalog.group_count(), options, deadline);
+      describe_end_of(missing, were_all_run, catalog.group_count(), options, budget);
   const bool is_kept = !missing.is_complete() && folder.was_complete();
   const bool is_written = missing.is_complete() || (!is_kept && !missing.missions.empty());
   if (is_written) {

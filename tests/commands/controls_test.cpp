@@ -1,3 +1,8 @@
+#include "explore/controls/controls.h"
+
+#include <cstdint>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "core/property/properties.h"
@@ -31,6 +36,44 @@ TEST(Controls, AreThoseThatMovesLeadTo) {
   // B gives way, but not to a behavior that is faulty.
   EXPECT_EQ(exploration.verdicts.front().result, Verdict::Result::violated);
   EXPECT_EQ(exploration.verdicts.front().script.size(), 2U);
+}
+
+/// Asks for the first bit of an environment until it was set, and then no more. The second one is
+/// the control after its one move.
+class ForgettingSystem final : public ControlSystem {
+ public:
+  ForgettingSystem() : ControlSystem(2, {}, 0) { actions_.emplace_back(); }
+
+  [[nodiscard]] const std::vector<std::uint32_t>& first_control() const override { return first_; }
+  [[nodiscard]] std::vector<std::uint8_t> first_environment() const override { return {0, 0}; }
+  void load(const std::uint32_t* /*control*/) override {}
+  [[nodiscard]] bool may_have(std::uint32_t /*action*/) const override { return true; }
+  [[nodiscard]] Outcome take(std::uint32_t /*action*/, SystemOracle& oracle) override {
+    if (!was_set_) was_set_ = oracle.is_in(sets_.with(0, true));
+    after_ = oracle.is_in(sets_.with(1, true)) ? 1 : 0;
+    return {&after_};
+  }
+  [[nodiscard]] Outcome take_fault() override { return {}; }
+  [[nodiscard]] Outcome take_repair(std::uint32_t /*kind*/) override { return {}; }
+
+ private:
+  const std::vector<std::uint32_t> first_ = {0};
+  std::uint32_t after_ = 0;
+  bool was_set_ = false;
+};
+
+/// What a move asks may depend on what it asked before: the outcome is filed under all of that.
+TEST(Controls, AreRightAlsoIfAMoveAsksLessThanBefore) {
+  using Environment = std::vector<std::uint8_t>;
+  const std::vector<Environment> environments = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+  ForgettingSystem system;
+  Controls controls(system);
+  controls.load(controls.find(system.first_control().data()));
+  for (int round = 0; round < 2; ++round) {
+    for (const Environment& environment : environments) {
+      EXPECT_EQ(*controls.packed(controls.outcome_in(0, environment).control), environment[1]);
+    }
+  }
 }
 
 }  // namespace

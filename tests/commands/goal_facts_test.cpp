@@ -40,20 +40,19 @@ using Reasons = std::map<std::string, std::string>;
 TEST(GoalProof, EndsWithinAStateAndProvesNothingThen) {
   const CompiledCatalog catalog = test::compile_text(test::exclusive_tasks(1000));
   const auto prove = [&](const GoalSearchOptions& walk) {
-    const GoalProof proof =
-        prove_unreachable(catalog, {}, assumptions_of_goals(catalog), {{}, walk});
+    const GoalProof proof = prove_unreachable(catalog, {}, assumptions_of_goals(catalog), walk);
     EXPECT_EQ(proof.groups.size(), 1U);
     return proof.groups.front();
   };
   int looks = 0;
   GoalSearchOptions asked;
-  asked.on_progress = [&looks](std::uint32_t, std::uint64_t) { return ++looks < 5; };
+  asked.budget.is_stopped = [&looks] { return ++looks == 5; };
   const GoalSearchResult stopped = prove(asked);
   EXPECT_FALSE(stopped.is_complete);
   EXPECT_EQ(looks, 5);
   EXPECT_LT(stopped.moves, 500U);
   GoalSearchOptions memory;
-  memory.max_memory = 40'000;
+  memory.budget.max_memory = 40'000;
   const GoalSearchResult full = prove(memory);
   EXPECT_FALSE(full.is_complete);
   EXPECT_LT(full.moves, 500U);

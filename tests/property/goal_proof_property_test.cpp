@@ -228,8 +228,7 @@ TEST(GoalProof, KnowsWhatReturns) {
   const auto unreachable = [](const std::string& yaml) {
     const CompiledCatalog catalog = oracle::compile_yaml(yaml).value();
     const std::vector<Goal> goals = find_goals(catalog);
-    const GoalProof proof =
-        prove_unreachable(catalog, goals, assumptions_of_goals(catalog), GoalProofOptions());
+    const GoalProof proof = prove_unreachable(catalog, goals, assumptions_of_goals(catalog), {});
     std::vector<std::string> texts;
     for (std::size_t goal = 0; goal < goals.size(); ++goal) {
       const bool is_about_blinking = goals[goal].kind >= Goal::Kind::timeout_fired &&

@@ -73,7 +73,7 @@ void check_stop(const VerifyCase& sample, const std::vector<Goal>& goals, const 
   std::uint64_t asked = 0;
   std::uint64_t most = UINT64_MAX;
   MissingMissionOptions options;
-  options.is_stopped = [&] { return ++asked > most; };
+  options.exploration.budget.is_stopped = [&] { return ++asked > most; };
   std::uint64_t until_over = UINT64_MAX;
   options.is_over = [&] { return asked > most && (until_over == 0 || --until_over == 0); };
   const auto find = [&] {
@@ -127,8 +127,8 @@ void check(const VerifyCase& sample, oracle::Statistics& statistics) {
   const CompiledCatalog& catalog = sample.catalog;
   const Assumptions& assumptions = sample.question.assumptions;
   const std::vector<Goal> goals = find_goals(catalog);
-  GoalProofOptions of_proof;
-  of_proof.search.max_states = most_states;
+  GoalSearchOptions of_proof;
+  of_proof.budget.max_states = most_states;
   const GoalProof proof = prove_unreachable(catalog, goals, assumptions, of_proof);
   if (proof.error) return statistics.count("excluded");
   for (const GoalSearchResult& group : proof.groups) {

@@ -14,7 +14,7 @@
 
 #include "compiled_text.h"
 #include "demand.h"
-#include "explore/moves/witness.h"
+#include "explore/controls/witness.h"
 #include "explore/properties/verification.h"
 #include "generator.h"
 #include "plain_model.h"

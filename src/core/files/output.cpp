@@ -124,12 +124,6 @@ void Progress::clear() {
   is_shown_ = false;
 }
 
-void GroupProgress::show(GroupId group, std::uint64_t states) {
-  if (group_ != group) progress_.begin(fmt::format("group {}", group));
-  group_ = group;
-  progress_.show(fmt::format(" ({})", quantity(states, "state")));
-}
-
 namespace {
 
 constexpr std::array stop_signals = {SIGINT, SIGTERM, SIGHUP};

@@ -111,23 +111,6 @@ class Progress {
   std::chrono::steady_clock::time_point shown_;  ///< last
 };
 
-/// The progress of an exploration of groups, one after the other.
-class GroupProgress {
- public:
-  /// `what` is being done to the groups: "exploring".
-  GroupProgress(std::string what, std::size_t groups) : progress_(std::move(what), groups) {}
-
-  /// How many states of this group have been visited. May be called often.
-  void show(GroupId group, std::uint64_t states);
-
-  /// For what follows the exploration.
-  [[nodiscard]] Progress& line() { return progress_; }
-
- private:
-  Progress progress_;
-  std::optional<std::uint32_t> group_;
-};
-
 /// While it exists, SIGINT, SIGTERM and SIGHUP ask the program to stop instead of ending it. GNU
 /// timeout and terminals may send them twice at once, to the program and to its group, so only a
 /// signal that comes more than a second after the first one ends the program. There can be only one

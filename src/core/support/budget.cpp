@@ -19,14 +19,22 @@ std::string memory_with_unit(std::uint64_t bytes) {
   return std::to_string(bytes) + std::string(unit > 0 ? units.substr(unit, 1) : "");
 }
 
+Budget::Clock::duration to_duration(double seconds) {
+  return std::chrono::duration_cast<Budget::Clock::duration>(
+      std::chrono::duration<double>(seconds));
+}
+
 }  // namespace
 
 Budget Budget::started() const {
   Budget budget = *this;
-  if (seconds > 0 && !deadline_) {
-    budget.deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                          std::chrono::duration<double>(seconds));
-  }
+  if (seconds > 0 && !deadline_) budget.deadline_ = Clock::now() + to_duration(seconds);
+  return budget;
+}
+
+Budget Budget::until(double share) const {
+  Budget budget = *this;
+  if (deadline_) *budget.deadline_ -= to_duration((1 - share) * seconds);
   return budget;
 }
 

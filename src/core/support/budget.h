@@ -42,6 +42,9 @@ class Budget {
 
   /// The same, with a time that begins now, unless it has begun.
   [[nodiscard]] Budget started() const;
+  /// The same, for a part of the work: it ends when this share of the time is over, if that has
+  /// begun.
+  [[nodiscard]] Budget until(double share) const;
 
   /// Whether work has to end that has used so much; if so, why.
   [[nodiscard]] std::optional<End> find_end(std::uint64_t states = 0,

@@ -14,7 +14,6 @@
 #include <limits>
 #include <utility>
 
-#include "runtime/compiled/compiled_file.h"
 #include "runtime/compiled/derive.h"
 
 namespace cbc {
@@ -110,22 +109,6 @@ void remove_exclusion(GrowingCatalog& catalog, const Goal& goal) {
   }
 }
 
-template <typename Items>
-void append(std::string& bytes, const Items& items) {
-  using Item = typename Items::value_type;
-  const std::size_t count = items.size();
-  bytes.append(reinterpret_cast<const char*>(&count), sizeof(count));
-  bytes.append(reinterpret_cast<const char*>(items.data()), count * sizeof(Item));
-}
-
-/// So many catalogs of this size are kept at a time, at most.
-std::size_t most_variants_of(const CompiledCatalog& catalog) {
-  constexpr std::size_t most_values = 2'000'000;
-  const std::size_t size = 1 + catalog.values.items.size() + catalog.requirements.items.size() +
-                           catalog.cliques.items.size() + catalog.masks.size();
-  return std::clamp<std::size_t>(most_values / size, 1, 1000);
-}
-
 }  // namespace
 
 CompiledCatalog without_constraint(const CompiledCatalog& catalog, const Goal& goal) {
@@ -143,6 +126,13 @@ CompiledCatalog without_constraint(const CompiledCatalog& catalog, const Goal& g
   }
   derive_rest(without);
   return to_catalog(std::move(without));
+}
+
+std::size_t most_variants_of(const CompiledCatalog& catalog) {
+  constexpr std::size_t most_values = 2'000'000;
+  const std::size_t size = 1 + catalog.values.items.size() + catalog.requirements.items.size() +
+                           catalog.cliques.items.size() + catalog.masks.size();
+  return std::clamp<std::size_t>(most_values / size, 1, 1000);
 }
 
 ConstraintRelaxation::ConstraintRelaxation(const CompiledCatalog& catalog,
@@ -175,22 +165,8 @@ bool ConstraintRelaxation::load(const EventRecord& record, const Circumstances& 
   return true;
 }
 
-std::string ConstraintRelaxation::digest() const {
-  std::string bytes;
-  for (const Problem& problem : problems_) {
-    bytes.append(reinterpret_cast<const char*>(&problem.group), sizeof(problem.group));
-    append(bytes, problem.domains);
-    append(bytes, problem.may_stop);
-    append(bytes, problem.present);
-    append(bytes, problem.requests);
-    append(bytes, problem.active);
-  }
-  return to_hex(digest_of(bytes));
-}
-
 bool ConstraintRelaxation::was_protection_alone() {
   if (!unprotected_) return false;
-  ++solved_;
   return has_solution(solver_.solve(*unprotected_, relaxed_).status);
 }
 
@@ -198,7 +174,6 @@ bool ConstraintRelaxation::decided(const Goal& goal, std::size_t number) {
   if (!may_matter(goal)) return false;
   Solver& solver = variant_of(goal, number).solver;
   for (const Problem& problem : problems_) {
-    ++solved_;
     const SearchStatus status = solver.solve(problem, relaxed_).status;
     if (status == SearchStatus::infeasible) continue;
     if (status != SearchStatus::optimal) return false;  // nothing is proven

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -22,9 +21,12 @@ namespace cbc {
 /// have the numbers that they had, so that problems of the one are problems of the other.
 [[nodiscard]] CompiledCatalog without_constraint(const CompiledCatalog& catalog, const Goal& goal);
 
-/// Asks what the answer to an event would have been without some constraint. Keeps the catalogs
-/// that it compiles for this, as long as they do not become too large together. Not for use by
-/// several threads.
+/// So many catalogs without a constraint are kept at a time, at most, of one of this size.
+[[nodiscard]] std::size_t most_variants_of(const CompiledCatalog& catalog);
+
+/// Asks what the answer to an event of a coordinator would have been without some constraint, as
+/// RelaxedDecisions does of a move of an exploration. Keeps the catalogs that it compiles for this,
+/// as long as they do not become too large together. Not for use by several threads.
 class ConstraintRelaxation {
  public:
   /// The limits and the order of ties are those of the coordinator. The catalog must outlive this.
@@ -35,9 +37,6 @@ class ConstraintRelaxation {
   [[nodiscard]] bool load(const EventRecord& record, const Circumstances& circumstances,
                           const Assignment* solution);
 
-  /// Of the problems of the event: events with the same digest have the same answers.
-  [[nodiscard]] std::string digest() const;
-
   /// Whether the event could have another answer without the constraint of the goal, as far as one
   /// sees without a search.
   [[nodiscard]] bool may_matter(const Goal& goal) const;
@@ -46,9 +45,6 @@ class ConstraintRelaxation {
   [[nodiscard]] bool decided(const Goal& goal, std::size_t number);
   /// Whether the start was rejected for the sake of requests of higher priority alone.
   [[nodiscard]] bool was_protection_alone();
-
-  /// The problems that were solved.
-  [[nodiscard]] std::uint64_t solved() const { return solved_; }
 
  private:
   struct Variant {
@@ -74,7 +70,6 @@ class ConstraintRelaxation {
   std::optional<Problem> unprotected_;
   const Assignment* solution_ = nullptr;
   Assignment relaxed_;
-  std::uint64_t solved_ = 0;
 };
 
 }  // namespace cbc

@@ -12,13 +12,9 @@
 #include "coverage/engine/goal_proof.h"
 
 #include <algorithm>
-#include <deque>
 #include <map>
-#include <utility>
 
 #include <fmt/format.h>
-
-#include "coverage/engine/goal_monitor.h"
 
 namespace cbc {
 namespace {
@@ -309,55 +305,6 @@ class ReasonFinder {
   const GoalFacts& facts_;
 };
 
-/// Where reactive tasks give way, and start by themselves.
-class Returns {
- public:
-  void add(const SeenMove& move) {
-    next_.resize(std::max<std::size_t>(next_.size(), std::max(move.from, move.to) + 1));
-    next_[move.from].push_back(move.to);
-    for (const TaskId task : move.gave_way) left_behind_[task].push_back(move.to);
-    for (const TaskId task : move.started) starts_from_[task].push_back(move.from);
-  }
-
-  /// The reactive tasks that start by themselves in some path after they have given way.
-  [[nodiscard]] std::vector<TaskId> find() const {
-    std::vector<TaskId> tasks;
-    for (const auto& [task, states] : left_behind_) {
-      const auto starts = starts_from_.find(task);
-      if (starts != starts_from_.end() && leads_to_any(states, starts->second)) {
-        tasks.push_back(task);
-      }
-    }
-    return tasks;
-  }
-
- private:
-  [[nodiscard]] bool leads_to_any(const std::vector<StateStore::Number>& from,
-                                  const std::vector<StateStore::Number>& to) const {
-    std::vector<std::uint8_t> is_wanted(next_.size(), 0);
-    for (const StateStore::Number state : to) is_wanted[state] = 1;
-    std::vector<std::uint8_t> is_seen(next_.size(), 0);
-    std::vector<StateStore::Number> waiting;
-    const auto add = [&](StateStore::Number state) {
-      if (std::exchange(is_seen[state], std::uint8_t{1}) == 0) waiting.push_back(state);
-    };
-    for (const StateStore::Number state : from) add(state);
-    while (!waiting.empty()) {
-      const StateStore::Number state = waiting.back();
-      waiting.pop_back();
-      if (is_wanted[state] != 0) return true;
-      for (const StateStore::Number reached : next_[state]) add(reached);
-    }
-    return false;
-  }
-
-  std::deque<std::vector<StateStore::Number>> next_;
-  /// The states after a task gave way.
-  std::map<TaskId, std::vector<StateStore::Number>> left_behind_;
-  /// The states before a task started by itself.
-  std::map<TaskId, std::vector<StateStore::Number>> starts_from_;
-};
-
 /// Of a variable that neither a behavior nor `never` names.
 bool may_have(const Assumptions& assumptions, const Goal& goal) {
   return initial_value(assumptions, goal.variable) == goal.value ||
@@ -392,37 +339,35 @@ Assumptions assumptions_of_goals(const CompiledCatalog& catalog) {
 }
 
 GoalProof prove_unreachable(const CompiledCatalog& catalog, std::span<const Goal> goals,
-                            const Assumptions& assumptions, const GoalProofOptions& options) {
+                            const Assumptions& assumptions, const GoalSearchOptions& options) {
   GoalProof proof;
   proof.unreachable.resize(goals.size());
   proof.groups.resize(catalog.group_count());
-  GoalMonitor monitor(catalog, goals, {});
-  monitor.take_failures_for_timeouts();
+  proof.facts = GoalFacts(catalog, goals.size());
+  std::vector<std::uint8_t> met(goals.size(), 0);
+  const GoalQuestion question{goals, std::vector<std::uint8_t>(goals.size(), 1)};
+  const auto search = [&](GoalScope scope) {
+    GoalSearch found(catalog, scope, assumptions, question, options);
+    GoalSearchResult result = found.run(proof.facts, met);
+    proof.error = result.error;
+    return result;
+  };
   for (GroupId group(0); group < catalog.group_count(); ++group) {
-    if (options.group.value_or(group) != group) continue;
-    if (options.search.on_progress && !options.search.on_progress(group, 0)) break;
-    Returns returns;
-    proof.groups[group] =
-        search_goals(catalog, {group}, assumptions, monitor, nullptr, options.search,
-                     [&](const auto& move) { returns.add(move); });
-    proof.error = proof.groups[group].error;
+    if (options.budget_of(group, catalog.group_count()).find_end()) break;
+    proof.groups[group] = search({group});
     if (proof.error) return proof;
-    for (const TaskId task : returns.find()) monitor.note_return(task);
   }
   const std::vector<std::uint32_t> bound = bound_variables(catalog, assumptions);
   for (std::size_t number = 0; number < goals.size(); ++number) {
     const std::uint32_t variable = goals[number].variable;
-    if (options.group || monitor.met()[number] != 0 || proof.situations.contains(variable) ||
-        !std::binary_search(bound.begin(), bound.end(), variable)) {
+    if (met[number] != 0 || proof.situations.contains(variable) ||
+        !std::binary_search(bound.begin(), bound.end(), variable) ||
+        initial_value(assumptions, variable) == goals[number].value) {
       continue;
     }
-    const GoalSearchResult& found = proof.situations[variable] =
-        search_goals(catalog, {std::nullopt, variable}, assumptions, monitor, nullptr,
-                     options.search, [](const SeenMove&) {});
-    proof.error = found.error;
+    proof.situations[variable] = search({std::nullopt, variable});
     if (proof.error) return proof;
   }
-  proof.facts = monitor.facts();
   for (std::size_t number = 0; number < goals.size(); ++number) {
     const Goal& goal = goals[number];
     const std::vector<GroupId> groups = groups_of(catalog, goal);
@@ -433,7 +378,7 @@ GoalProof prove_unreachable(const CompiledCatalog& catalog, std::span<const Goal
                     [&](GroupId group) { return proof.groups[group].is_complete; }) &&
         (!is_bound || situation->second.is_complete);
     const bool is_free = groups.empty() && !is_bound && may_have(assumptions, goal);
-    const bool is_met = monitor.met()[number] != 0 && !is_forestalled(catalog, goal, proof.facts);
+    const bool is_met = met[number] != 0 && !is_forestalled(catalog, goal, proof.facts);
     if (is_met || !is_proven || is_free) continue;
     proof.unreachable[number] = why_unreachable(catalog, goals, number, assumptions, proof.facts);
   }

@@ -26,21 +26,15 @@ struct GoalProof {
   std::optional<std::string> error;
 };
 
-struct GoalProofOptions {
-  std::optional<GroupId> group;  ///< the only one to visit; empty: all
-  GoalSearchOptions search;
-};
-
 /// What holds without a property file: that of `cbc verify`, but requests have the priorities 1 and
 /// 2, as some goals are about these, and also start tasks that nothing else could start.
 [[nodiscard]] Assumptions assumptions_of_goals(const CompiledCatalog& catalog);
 
-/// Visits all states of each group that are reachable (docs/verify.md, "States"), and makes each
-/// move from each of them, on a coordinator that is monitored for the goals.
+/// Visits all states of each group that are reachable; see GoalSearch.
 [[nodiscard]] GoalProof prove_unreachable(const CompiledCatalog& catalog,
                                           std::span<const Goal> goals,
                                           const Assumptions& assumptions,
-                                          const GoalProofOptions& options);
+                                          const GoalSearchOptions& options);
 
 /// The groups that a goal is about: of a variable those whose behaviors name it.
 [[nodiscard]] std::vector<GroupId> groups_of(const CompiledCatalog& catalog, const Goal& goal);

@@ -1,13 +1,6 @@
-// Which goals can be met at all: explicit-state reachability, as in `cbc verify`, but each move is
-// made twice. The exploration of states makes it on packed states and finds the state that comes
-// next; a coordinator, which a monitor watches as it watches missions, makes it once more and meets
-// the goals. So a goal counts here exactly if it would in a mission (monitors of runtime
-// verification: M. Leucker and C. Schallhart, "A brief account of runtime verification", Journal of
-// Logic and Algebraic Programming 78 (2009)).
-//
-// Goals as properties of states would be quicker, but most are about events and about what an
-// answer would have been otherwise, so each would be written down a second time, and differ some
-// day.
+// Which goals can be met at all: reachability, as in `cbc verify`. A return needs two moves, the
+// one in which a task gives way, and a later one in which it starts by itself: whether the one
+// leads to the other is found going backward, once all states are known.
 
 #include "coverage/engine/goal_search.h"
 
@@ -16,249 +9,49 @@
 #include <set>
 #include <utility>
 
-#include "core/script/runner.h"
-#include "coverage/engine/breadth_first.h"
-#include "explore/moves/stepper.h"
-#include "explore/moves/witness.h"
-#include "runtime/coordinator/coordinator.h"
-#include "runtime/coordinator/state.h"
+#include "explore/properties/explore.h"
 
 namespace cbc {
 namespace {
 
-/// The present instant. What is in the queue comes due in the microseconds after it, set by set.
-constexpr Microseconds present_instant = second;
+using Set = StatePart::Set;
+using Layer = StatePart::Layer;
 
-CoordinatorOptions without_times() {
-  CoordinatorOptions options;
-  options.timeouts = false;
-  return options;
+std::vector<GroupId> groups_in(const GoalScope& scope) {
+  return scope.group ? std::vector{*scope.group} : std::vector<GroupId>();
 }
 
-/// Makes moves of an exploration once more, on a coordinator that is monitored for goals.
-class StateReplay final : private EventListener {
- public:
-  /// Model and monitor must outlive this object.
-  StateReplay(const Model& model, GoalMonitor& monitor);
+std::set<std::uint32_t> variables_in(const GoalScope& scope) {
+  return scope.group ? std::set<std::uint32_t>() : std::set{scope.variable};
+}
 
-  /// Takes up the state of the stepper.
-  void load(const Stepper& stepper);
-  /// Makes a move from the state, which must have it.
-  void take(const Move& move);
+/// Of a part: the states before moves with an item, or those after them, by control.
+using Found = std::map<Controls::Number, Set>;
 
-  /// After the last move.
-  [[nodiscard]] const State& state() const { return coordinator_.state(); }
-  /// Whether a task that runs after the last move ran before it with the same behavior, which has
-  /// not been activated again.
-  [[nodiscard]] bool goes_on(TaskId task) const;
-  /// The reactive tasks that started by themselves, that gave way in the last move.
-  [[nodiscard]] const std::vector<TaskId>& started() const { return started_; }
-  [[nodiscard]] const std::vector<TaskId>& gave_way() const { return gave_way_; }
+Layer layer_of(const Found& found) {
+  Layer layer;
+  for (const auto& [control, environments] : found) layer.push_back({control, environments});
+  return layer;
+}
 
- private:
-  void on_decision(const EventRecord& record, const Circumstances& circumstances,
-                   const Assignment* solution) override;
-  void on_event(const EventRecord& record) override;
-
-  const Model& model_;
-  GoalMonitor& monitor_;
-  Coordinator coordinator_;
-  Snapshot state_;
-  std::vector<TaskId> started_;
-  std::vector<TaskId> gave_way_;
-};
-
-StateReplay::StateReplay(const Model& model, GoalMonitor& monitor)
-    : model_(model), monitor_(monitor), coordinator_(model.catalog(), without_times(), *this) {}
-
-void StateReplay::load(const Stepper& stepper) {
-  const Model::Layout& layout = model_.layout();
-  const CompiledCatalog& catalog = model_.catalog();
-  const std::uint16_t* const cells = stepper.cells();
-  state_ = {};
-  state_.now = present_instant;
-  state_.reactive_delay = CoordinatorOptions{}.reactive_delay;
-  state_.timeouts = false;
-  state_.events = layout.request_count;
-  for (std::uint32_t task = 0; task < model_.tasks().size(); ++task) {
-    if (cells[task] == 0) continue;
-    Snapshot::RunningTask& entry = state_.running.emplace_back();
-    entry.task = model_.tasks()[task].id;
-    entry.value_index = cells[task] - 1U;
-    for (std::uint32_t place = 0; place < layout.request_count; ++place) {
-      if (cells[layout.requests + place] != task + 1) continue;
-      // The later one is the more important one of two with the same priority.
-      entry.request = Request{
-          model_.priority_of(cells[layout.ranks + place]), layout.request_count - place, {}};
+/// Calls `take(from, outcome, after)` with all moves between states of a part that meet something.
+template <typename Take>
+void for_each_note(StatePart& part, Take&& take) {
+  ControlSystem& system = part.system();
+  const Controls::Number count = part.controls().size();
+  for (Controls::Number control = 0; control < count; ++control) {
+    if (!part.is_own(control) || part.visited(control) == Diagrams::empty) continue;
+    part.controls().load(control);
+    for (std::uint32_t action = 0; action < system.actions().size(); ++action) {
+      const ControlSystem::Action& made = system.actions()[action];
+      const Set set = system.sets().both(part.visited(control), made.condition);
+      if (set == Diagrams::empty || !system.may_have(action)) continue;
+      part.controls().for_each_outcome(action, set, [&](Controls::Outcome outcome, Set from) {
+        if (outcome.note != 0) take({control, from}, outcome, system.after(made, from));
+      });
     }
   }
-  for_each_bit(stepper.active().data(), stepper.active().size(), [&](std::uint32_t behavior) {
-    state_.active.emplace_back(model_.behaviors()[behavior].id, 0);
-  });
-  for (std::uint32_t behavior = 0; behavior < model_.behaviors().size(); ++behavior) {
-    if (stepper.is_denied(behavior)) state_.denied.push_back(model_.behaviors()[behavior].id);
-    if (stepper.is_faulty(behavior)) state_.faulty.push_back(model_.behaviors()[behavior].id);
-  }
-  for (std::uint32_t flag = 0; flag < layout.own_count; ++flag) {
-    const Model::OwnFlag& own = model_.own_flags()[flag];
-    if (own.behavior == none && cells[layout.own + flag] != 0) state_.denied.push_back(own.id);
-  }
-  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
-    const std::uint32_t known = model_.find_variable(variable);
-    state_.variables.push_back(known == none ? initial_value(model_.assumptions(), variable)
-                                             : stepper.value_of(known));
-  }
-  for (std::uint32_t reactive = 0; reactive < layout.reactive_count; ++reactive) {
-    const TaskId task = model_.tasks()[model_.reactive()[reactive]].id;
-    const std::uint16_t set = cells[layout.queue + reactive];
-    if (set != 0) state_.queue.emplace_back(task, present_instant + set);
-    if (cells[layout.waiting + reactive] != 0) state_.waiting.push_back(task);
-  }
-  coordinator_.resume(state_);
-  monitor_.begin(coordinator_.state());
 }
-
-void StateReplay::take(const Move& move) {
-  coordinator_.resume(state_);
-  monitor_.begin(coordinator_.state());
-  started_.clear();
-  if (move.kind == Move::Kind::due) {
-    // Before the second set.
-    static_cast<void>(coordinator_.advance_to(present_instant + 2));
-  } else {
-    const Step step = step_of(model_.catalog(), model_.assumptions(), move);
-    static_cast<void>(coordinator_.handle(event_of(step)));
-  }
-  gave_way_.clear();
-  for (const std::uint32_t task : model_.reactive()) {
-    const TaskId id = model_.tasks()[task].id;
-    if (monitor_.has_given_way(id)) gave_way_.push_back(id);
-  }
-}
-
-/// What was there before has been there since the beginning.
-bool StateReplay::goes_on(TaskId task) const {
-  const State& state = coordinator_.state();
-  return std::max(state.taken_at(task), state.activated_at(state.behavior(task))) < present_instant;
-}
-
-void StateReplay::on_decision(const EventRecord& record, const Circumstances& circumstances,
-                              const Assignment* solution) {
-  monitor_.on_decision(record, circumstances, solution);
-  if (solution != nullptr && circumstances.trigger.is_reactive) {
-    started_.push_back(circumstances.trigger.task);
-  }
-}
-
-void StateReplay::on_event(const EventRecord& record) {
-  monitor_.note_event(record, coordinator_.state());
-}
-
-/// Finds timeouts before which another one always comes, from all moves between the reachable
-/// states of a group, although these have no times.
-///
-/// Take a task x with behavior b, and a task y with c, whose timeout is shorter, or the same and y
-/// comes first in the catalog. Where x begins to run with b, y runs with c; and as long as the one
-/// goes on, so does the other. So c has been there for as long as b at least, and its timeout comes
-/// first. It is a failure of c, and as after no failure of c x goes on with b, the timeout of b
-/// does not come.
-class TimeoutRace {
- public:
-  /// The catalog must outlive this object. `group`: empty if there are no tasks.
-  TimeoutRace(const CompiledCatalog& catalog, std::optional<GroupId> group)
-      : catalog_(catalog), group_(group) {}
-
-  /// Notes a move, which the replay has just made.
-  void note(const StateReplay& replay, const Move& move);
-
-  /// After all moves of the group: tells of each value one that always times out before it, if
-  /// there is any.
-  void tell(GoalMonitor& monitor) const;
-
- private:
-  const CompiledCatalog& catalog_;
-  const std::optional<GroupId> group_;
-  /// By value that ran and has a timeout: those that have always come first so far, ascending.
-  std::map<ValueId, std::vector<ValueId>> sooner_;
-  std::vector<ValueId> running_;  ///< after the move; kept for its memory
-};
-
-void TimeoutRace::note(const StateReplay& replay, const Move& move) {
-  const State& state = replay.state();
-  // Of timeouts that are due at the same instant, that of the task first in the catalog comes
-  // first.
-  const auto timeout = [&](ValueId value) {
-    const TaskId task = catalog_.task_of(value);
-    return std::pair(timeout_of(catalog_, task, catalog_.values.items[value].behavior),
-                     catalog_.tasks[task].catalog_index);
-  };
-  running_.clear();
-  if (!group_) return;
-  for (TaskId task = catalog_.group_tasks[*group_]; task < catalog_.group_tasks[*group_ + 1];
-       ++task) {
-    if (!state.is_running(task)) continue;
-    const ValueId value(catalog_.values.begin[task] + state.value_index(task));
-    if (timeout(value).first > 0) running_.push_back(value);
-  }
-  for (const ValueId value : running_) {
-    const bool goes_on = replay.goes_on(catalog_.task_of(value));
-    const auto [entry, is_new] = sooner_.try_emplace(value);
-    std::vector<ValueId>& sooner = entry->second;
-    if (is_new) {
-      for (const ValueId other : running_) {
-        if (timeout(other) < timeout(value)) sooner.push_back(other);
-      }
-    }
-    std::erase_if(sooner, [&](ValueId other) {
-      if (!std::binary_search(running_.begin(), running_.end(), other)) return true;
-      if (!goes_on) return false;
-      const BehaviorId behavior = catalog_.values.items[other].behavior;
-      const bool fails = move.kind == Move::Kind::failure &&
-                         catalog_.behaviors[behavior].catalog_index == move.subject;
-      return fails || !replay.goes_on(catalog_.task_of(other));
-    });
-  }
-}
-
-void TimeoutRace::tell(GoalMonitor& monitor) const {
-  for (const auto& [value, sooner] : sooner_) {
-    if (!sooner.empty()) monitor.note_forestalled(value, sooner.front());
-  }
-}
-
-/// Makes each move of the search once more, and passes on what it did.
-class ReplayVisitor {
- public:
-  ReplayVisitor(const Model& model, std::optional<GroupId> group, GoalMonitor& monitor,
-                const std::vector<std::uint8_t>* unwanted,
-                const std::function<void(const SeenMove&)>& on_move)
-      : monitor_(monitor),
-        unwanted_(unwanted),
-        on_move_(on_move),
-        stepper_(model, {.reduce = true}),
-        replay_(model, monitor),
-        race_(model.catalog(), group) {}
-
-  [[nodiscard]] Stepper& system() { return stepper_; }
-  void visit(StateStore::Number /*number*/) { replay_.load(stepper_); }
-  void on_move(StateStore::Number from, const Model::Choice& choice, StateStore::Number to) {
-    const Move move = stepper_.move_of(choice);
-    if (unwanted_ != nullptr) monitor_.restart(*unwanted_);
-    replay_.take(move);
-    race_.note(replay_, move);
-    on_move_({from, to, move, replay_.started(), replay_.gave_way()});
-  }
-
-  [[nodiscard]] const TimeoutRace& race() const { return race_; }
-
- private:
-  GoalMonitor& monitor_;
-  const std::vector<std::uint8_t>* const unwanted_;
-  const std::function<void(const SeenMove&)>& on_move_;
-  Stepper stepper_;
-  StateReplay replay_;
-  TimeoutRace race_;
-};
 
 }  // namespace
 
@@ -277,201 +70,119 @@ std::vector<std::uint32_t> bound_variables(const CompiledCatalog& catalog,
   return variables;
 }
 
-GoalSearchResult search_goals(const CompiledCatalog& catalog, GoalScope scope,
-                              const Assumptions& assumptions, GoalMonitor& monitor,
-                              const std::vector<std::uint8_t>* unwanted,
-                              const GoalSearchOptions& options,
-                              const std::function<void(const SeenMove&)>& on_move) {
-  GoalSearchResult result;
-  std::vector<GroupId> groups;
-  std::set<std::uint32_t> variables;
-  if (scope.group) {
-    groups.push_back(*scope.group);
-  } else {
-    variables.insert(scope.variable);
-  }
-  const Model model(catalog, groups, assumptions, variables);
-  // What is about no group comes after the last one.
+Budget GoalSearchOptions::budget_of(GroupId group, std::size_t groups) const {
+  const auto count = static_cast<double>(groups);
+  const double after = groups == 0 ? 0 : (count - 1 - group) / count;
+  return budget.until(1 - kept - 0.1 * after);
+}
+
+/// What is about no group comes after the last one.
+GoalSearch::GoalSearch(const CompiledCatalog& catalog, GoalScope scope,
+                       const Assumptions& assumptions, const GoalQuestion& question,
+                       const GoalSearchOptions& options)
+    : question_(question), model_(catalog, groups_in(scope), assumptions, variables_in(scope)) {
+  if (model_.find_obstacle()) return;
+  const std::size_t groups = catalog.group_count();
   const GroupId shown = scope.group.value_or(
-      GroupId(static_cast<std::uint32_t>(std::max<std::size_t>(1, catalog.group_count()) - 1)));
-  result.error = model.find_obstacle();
+      GroupId(static_cast<std::uint32_t>(std::max<std::size_t>(1, groups) - 1)));
+  ExplorationOptions of_exploration;
+  of_exploration.budget = options.budget_of(shown, groups);
+  of_exploration.reduce = true;
+  Stepper::Options of_stepper = share_memory(of_exploration, of_exploration.budget);
+  const std::size_t jobs = std::max(1U, options.jobs);
+  of_stepper.decision_bytes /= jobs;
+  StateSpace::Systems systems;
+  systems_ = add_systems<GoalSystem>(jobs, systems, model_, of_stepper, question);
+  space_.emplace(std::move(systems), of_exploration.budget, name_groups({shown}));
+}
+
+GoalSearchResult GoalSearch::run(GoalFacts& facts, std::vector<std::uint8_t>& met,
+                                 const std::function<void()>& on_depth) {
+  GoalSearchResult result;
+  result.error = model_.find_obstacle();
   if (result.error) return result;
-  // One state more than may be visited ends the search.
-  BreadthFirst search(model.packed_first(), {options.max_states + 1, options.max_memory},
-                      [&](std::uint64_t states) {
-                        return !options.on_progress || options.on_progress(shown, states);
-                      });
-  ReplayVisitor visitor(model, scope.group, monitor, unwanted, on_move);
-  search.run(visitor);
-  result.states = search.store().size();
-  result.moves = search.transitions();
-  result.is_complete = search.is_complete();
-  result.end = search.end();
-  if (result.is_complete) visitor.race().tell(monitor);
+  struct NoVisitor {
+    void visit(const StatePart::States& /*states*/, std::uint32_t /*depth*/) const {}
+    void on_refusal(std::uint32_t /*action*/, const StatePart::States& /*states*/) const {}
+    void on_outcome(std::uint32_t /*action*/, const StatePart::States& /*states*/,
+                    Controls::Outcome /*outcome*/) const {}
+    void on_note(std::uint32_t /*note*/, const StatePart::States& /*states*/) const {}
+  };
+  std::vector<NoVisitor> visitors(systems_.size());
+  space_->run(visitors, [&] {
+    if (on_depth) on_depth();
+    return false;
+  });
+  if (space_->is_complete() && !question_.is_about_moves) find_returns(met);
+  if (space_->is_complete()) report(facts, met);
+  result.states = space_->states();
+  result.moves = space_->transitions();
+  result.is_complete = space_->is_complete();
+  if (!result.is_complete) result.end = space_->end();
   return result;
 }
 
-namespace {
-
-class GraphBuilder {
- public:
-  GraphBuilder(const CompiledCatalog& catalog, std::span<const Goal> goals,
-               const std::vector<std::uint8_t>& wanted, const Assumptions& assumptions,
-               const GoalSearchOptions& options)
-      : catalog_(catalog),
-        goals_(goals),
-        assumptions_(assumptions),
-        options_(options),
-        monitor_(catalog, goals, {}),
-        bound_(bound_variables(catalog, assumptions)),
-        is_met_(goals.size(), 0),
-        returns_(catalog.tasks.size(), none) {
-    monitor_.take_failures_for_timeouts();
-    graph_.goal_count = goals.size();
-    for (const Goal& goal : goals) {
-      const bool is_return = goal.kind == Goal::Kind::reactive_returned;
-      graph_.is_return.push_back(is_return ? 1 : 0);
-    }
-    for (std::uint32_t goal = 0; goal < goals.size(); ++goal) {
-      unwanted_.push_back(wanted[goal] == 0 || graph_.is_return[goal] != 0 ? 1 : 0);
-      if (wanted[goal] != 0 && graph_.is_return[goal] != 0) returns_[goals[goal].task] = goal;
-    }
-  }
-
-  GoalGraph build() {
-    for (GroupId group(0); group < catalog_.group_count(); ++group) {
-      // To begin the searches of very many groups takes long, too.
-      if (options_.on_progress && !options_.on_progress(group, 0)) break;
-      first_state_ = static_cast<std::uint32_t>(graph_.state_count());
-      if (group == 0) add_free_variables();
-      if (!add_part({group}, {group, first_state_})) break;
-    }
-    if (!graph_.error && graph_.parts.size() == catalog_.group_count()) add_bound_variables();
-    graph_.facts = monitor_.facts();
-    return std::move(graph_);
-  }
-
- private:
-  /// False if nothing can be explored.
-  bool add_part(GoalScope scope, GoalGraph::Part part) {
-    const GoalSearchResult result =
-        search_goals(catalog_, scope, assumptions_, monitor_, &unwanted_, options_,
-                     [this](const SeenMove& move) { add_move(move); });
-    graph_.error = result.error;
-    if (graph_.error) return false;
-    part.is_complete = result.is_complete;
-    graph_.parts.push_back(part);
-    end_states_before(first_state_ + static_cast<std::uint32_t>(result.states));
-    return true;
-  }
-
-  /// Values of these that no group shows, as nothing ties them to any.
-  void add_bound_variables() {
-    if (catalog_.group_count() == 0) return;
-    for (const std::uint32_t variable : bound_) {
-      const auto is_open = [&](std::uint32_t goal) {
-        return goals_[goal].variable == variable && unwanted_[goal] == 0 && is_met_[goal] == 0;
-      };
-      bool is_wanted = false;
-      for (std::uint32_t goal = 0; goal < goals_.size(); ++goal) {
-        is_wanted = is_wanted || is_open(goal);
+void GoalSearch::find_returns(std::vector<std::uint8_t>& met) {
+  const auto& goals = question_.goals;
+  std::map<std::uint32_t, std::vector<Found>> before;  // by goal and part: before it starts
+  std::map<std::uint32_t, std::vector<Found>> after;   // the same: after it gave way
+  for (std::size_t place = 0; place < systems_.size() && !model_.reactive().empty(); ++place) {
+    StatePart& part = *space_->parts()[place];
+    const auto add = [&](std::vector<Found>& found, Controls::Number control, Set environments) {
+      found.resize(systems_.size());
+      Set& known = found[place].try_emplace(control, Diagrams::empty).first->second;
+      known = part.system().sets().either(known, environments);
+    };
+    for_each_note(part, [&](const StatePart::States& from, Controls::Outcome outcome, Set to) {
+      for (const std::uint32_t item : systems_[place]->items_of(outcome.note)) {
+        if (item >= goals.size()) {
+          add(after[item - static_cast<std::uint32_t>(goals.size())], outcome.control, to);
+        } else if (goals[item].kind == Goal::Kind::reactive_returned) {
+          add(before[item], from.control, from.environments);
+        }
       }
-      if (!is_wanted) continue;
-      first_state_ = static_cast<std::uint32_t>(graph_.state_count());
-      if (!add_part({std::nullopt, variable}, {GroupId(0), first_state_, false, variable})) return;
-    }
-  }
-
-  void add_move(const SeenMove& seen) {
-    items_.clear();
-    for (std::uint32_t goal = 0; goal < goals_.size(); ++goal) {
-      if (monitor_.met()[goal] != 0 && unwanted_[goal] == 0 &&
-          is_shown_by(goals_[goal], seen.move)) {
-        items_.push_back(goal);
-        is_met_[goal] = 1;
-      }
-    }
-    for (const TaskId task : seen.started) add_return(task, 0);
-    for (const TaskId task : seen.gave_way) add_return(task, graph_.goal_count);
-    end_states_before(first_state_ + seen.from);
-    add_edge(first_state_ + seen.from, first_state_ + seen.to, seen.move);
-  }
-
-  /// The edges of the states before this one are complete.
-  void end_states_before(std::uint32_t state) {
-    graph_.begin.resize(state + 1, static_cast<std::uint32_t>(graph_.edges.size()));
-  }
-
-  /// A monitor notes the values in each state. A path shows those at its beginning anyway.
-  [[nodiscard]] bool is_shown_by(const Goal& goal, const Move& move) const {
-    if (goal.kind != Goal::Kind::variable_value) return true;
-    if (move.kind != Move::Kind::variable && move.kind != Move::Kind::together) return false;
-    const Step step = step_of(catalog_, assumptions_, move);
-    const auto& values = step.situation.variables;
-    return std::any_of(values.begin(), values.end(), [&](const VariableValue& value) {
-      return value.variable == goal.variable && value.value == goal.value;
     });
   }
-
-  void add_return(TaskId task, std::size_t offset) {
-    if (returns_[task] == none) return;
-    items_.push_back(returns_[task] + static_cast<std::uint32_t>(offset));
-  }
-
-  /// Leaves out a move if another one does the same, and meets these goals and perhaps more.
-  void add_edge(std::uint32_t from, std::uint32_t to, const Move& move) {
-    std::sort(items_.begin(), items_.end());
-    if (from == to && items_.empty()) return;
-    for (std::size_t other = graph_.begin.back(); other < graph_.edges.size(); ++other) {
-      const auto items = graph_.items_of(graph_.edges[other]);
-      if (graph_.edges[other].to == to &&
-          std::includes(items.begin(), items.end(), items_.begin(), items_.end())) {
-        return;
-      }
+  for (const auto& [goal, starts] : before) {
+    if (!after.contains(goal)) continue;
+    std::vector<Layer> targets;
+    std::vector<StatePart::Parcel> left_behind;
+    for (std::size_t place = 0; place < systems_.size(); ++place) {
+      targets.push_back(layer_of(starts[place]));
+      left_behind.push_back(space_->parts()[place]->pack(layer_of(after[goal][place])));
     }
-    graph_.edges.push_back({to, static_cast<std::uint32_t>(graph_.items.size()),
-                            static_cast<std::uint32_t>(items_.size()), move});
-    graph_.items.insert(graph_.items.end(), items_.begin(), items_.end());
-  }
-
-  /// Variables that neither a behavior nor `never` names are no part of any state.
-  void add_free_variables() {
-    for (std::uint32_t goal = 0; goal < goals_.size(); ++goal) {
-      const std::uint32_t variable = goals_[goal].variable;
-      const auto& may_change = assumptions_.variables;
-      if (unwanted_[goal] != 0 || variable == none ||
-          std::find(may_change.begin(), may_change.end(), variable) == may_change.end() ||
-          std::find(bound_.begin(), bound_.end(), variable) != bound_.end() ||
-          std::any_of(catalog_.fitting_values.begin(), catalog_.fitting_values.end(),
-                      [&](const FittingValue& one) { return one.variable == variable; })) {
-        continue;
-      }
-      items_ = {goal};
-      add_edge(first_state_, first_state_,
-               {Move::Kind::variable, variable, static_cast<std::int32_t>(goals_[goal].value)});
+    const auto reaching = space_->can_reach(targets, nullptr, std::nullopt);
+    if (!reaching) return;
+    const auto leads_there = [&](std::size_t place) {
+      StatePart& part = *space_->parts()[place];
+      const Layer layer = part.unpack(left_behind);
+      return std::any_of(layer.begin(), layer.end(), [&](const StatePart::States& states) {
+        if (!part.is_own(states.control)) return false;
+        const Set known = (*reaching)[place][states.control];
+        return part.system().sets().both(states.environments, known) != Diagrams::empty;
+      });
+    };
+    for (std::size_t place = 0; place < systems_.size(); ++place) {
+      if (met[goal] == 0 && leads_there(place)) met[goal] = 1;
     }
   }
+}
 
-  const CompiledCatalog& catalog_;
-  const std::span<const Goal> goals_;
-  const Assumptions& assumptions_;
-  const GoalSearchOptions& options_;
-  GoalMonitor monitor_;
-  GoalGraph graph_;
-  std::vector<std::uint8_t> unwanted_;      ///< by goal: not asked about
-  const std::vector<std::uint32_t> bound_;  ///< see bound_variables()
-  std::vector<std::uint8_t> is_met_;        ///< by goal: by an edge
-  std::vector<std::uint32_t> returns_;      ///< by task: its goal of returning, if it is wanted
-  std::uint32_t first_state_ = 0;           ///< of the present group
-  std::vector<std::uint32_t> items_;        ///< of the present edge
-};
-
-}  // namespace
-
-GoalGraph explore_goals(const CompiledCatalog& catalog, std::span<const Goal> goals,
-                        const std::vector<std::uint8_t>& wanted, const Assumptions& assumptions,
-                        const GoalSearchOptions& options) {
-  return GraphBuilder(catalog, goals, wanted, assumptions, options).build();
+void GoalSearch::report(GoalFacts& facts, std::vector<std::uint8_t>& met) {
+  TimeoutRace race(model_);
+  for (std::size_t place = 0; place < systems_.size(); ++place) {
+    StatePart& part = *space_->parts()[place];
+    GoalSystem& system = *systems_[place];
+    Set all = Diagrams::empty;
+    for (Controls::Number control = 0; control < part.controls().size(); ++control) {
+      if (part.is_own(control)) all = system.sets().either(all, part.visited(control));
+    }
+    system.note_situations(all);
+    facts.add(system.facts());
+    race.add(system.race());
+    for (std::size_t goal = 0; goal < met.size(); ++goal) met[goal] |= system.met()[goal];
+  }
+  race.tell(facts);
 }
 
 }  // namespace cbc

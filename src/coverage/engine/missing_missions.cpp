@@ -39,13 +39,8 @@ class MissionFinder {
       missing_[goal] = met[goal] == 0 ? 1 : 0;
       result_.wanted += missing_[goal];
     }
-    GoalSearchOptions of_exploration = options_.exploration;
-    of_exploration.on_progress = [&](GroupId group, std::uint64_t states) {
-      const auto& on_progress = options_.exploration.on_progress;
-      return !is_stopped() && (!on_progress || on_progress(group, states));
-    };
     result_.reached = Phase::exploration;
-    graph_ = explore_goals(catalog_, goals_, missing_, assumptions_, of_exploration);
+    graph_ = explore_goals(catalog_, goals_, missing_, assumptions_, options_.exploration);
     result_.error = graph_.error;
     result_.states = graph_.state_count();
     if (graph_.error) return std::move(result_);
@@ -233,7 +228,9 @@ class MissionFinder {
     return best.has_value();
   }
 
-  [[nodiscard]] bool is_stopped() const { return options_.is_stopped && options_.is_stopped(); }
+  [[nodiscard]] bool is_stopped() const {
+    return options_.exploration.budget.find_end().has_value();
+  }
   [[nodiscard]] bool is_over() const { return options_.is_over && options_.is_over(); }
 
   /// After the exploration, which has a progress of its own.

@@ -54,20 +54,19 @@ struct MissingMissions {
   /// The same, of variables that no behavior names and that `never` binds.
   std::vector<std::uint32_t> partial_variables;
   std::uint64_t states = 0;
-  Phase reached = Phase::done;       ///< what is_stopped ended; then the missions are those so far
+  Phase reached = Phase::done;       ///< what the budget ended; then the missions are those so far
   std::optional<std::string> error;  ///< see Model::find_obstacle()
   std::string fault;                 ///< of cbc: a script does not do what was proven
 };
 
 struct MissingMissionOptions {
+  /// Once its budget asks for an end, the search ends soon, with simple missions for what is known
+  /// by then.
   GoalSearchOptions exploration;
   std::string catalog;       ///< see Script
   std::uint32_t events = 8;  ///< of a script, if no goal takes more
   /// Called now and then after the exploration, with the number of scripts so far. May be empty.
   std::function<void(std::size_t number)> on_mission;
-  /// Asked now and then; once it is true, the search ends soon, with simple missions for what is
-  /// known by then. May be empty.
-  std::function<bool()> is_stopped;
   /// Asked now and then, later: once it is true, no more missions are tried. May be empty.
   std::function<bool()> is_over;
 };

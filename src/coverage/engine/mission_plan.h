@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "coverage/engine/goal_search.h"
+#include "coverage/engine/goal_graph.h"
 
 namespace cbc {
 

@@ -8,7 +8,7 @@
 #include "core/script/runner.h"
 #include "core/script/script.h"
 #include "coverage/engine/goal_monitor.h"
-#include "explore/moves/witness.h"
+#include "explore/controls/witness.h"
 
 namespace cbc {
 

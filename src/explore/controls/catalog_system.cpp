@@ -79,16 +79,6 @@ std::vector<std::uint8_t> CatalogSystem::first_environment() const {
   return environment;
 }
 
-std::vector<std::uint32_t> CatalogSystem::join(const std::uint32_t* control,
-                                               const std::vector<std::uint8_t>& environment) const {
-  std::vector<std::uint16_t> cells(model_.layout().cells);
-  model_.unpack(control, cells.data());
-  side_.environments().write_cells(environment, cells.data());
-  std::vector<std::uint32_t> state(model_.packed_words());
-  model_.pack(cells.data(), state.data());
-  return state;
-}
-
 // Moves.
 
 ControlSystem::Outcome CatalogSystem::take(std::uint32_t action, SystemOracle& oracle) {

@@ -16,7 +16,7 @@
 namespace cbc {
 
 /// The states of a model, for the properties of one catalog. The model must outlive it.
-class CatalogSystem final : public ControlSystem {
+class CatalogSystem : public ControlSystem {
  public:
   /// A mark that is part of the states; see Property::after.
   struct Mark {
@@ -29,6 +29,7 @@ class CatalogSystem final : public ControlSystem {
 
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] Environments& environments() { return side_.environments(); }
+  [[nodiscard]] const Environments& environments() const { return side_.environments(); }
   /// Has the loaded control.
   [[nodiscard]] const Stepper& stepper() const { return side_.stepper(); }
   [[nodiscard]] const Model::Choice& choice_of(std::uint32_t action) const {
@@ -41,9 +42,6 @@ class CatalogSystem final : public ControlSystem {
   [[nodiscard]] bool runs_in(const std::uint32_t* control, std::uint32_t task) const {
     return model_.cell_of(control, task) != 0;
   }
-  /// The packed state that has a control and an environment.
-  [[nodiscard]] std::vector<std::uint32_t> join(const std::uint32_t* control,
-                                                const std::vector<std::uint8_t>& environment) const;
   /// The environments with the mark.
   [[nodiscard]] Set marked() const { return marked_; }
   /// A test of the condition, whose sets are kept.
@@ -51,9 +49,9 @@ class CatalogSystem final : public ControlSystem {
 
   [[nodiscard]] const std::vector<std::uint32_t>& first_control() const override { return first_; }
   [[nodiscard]] std::vector<std::uint8_t> first_environment() const override;
-  void load(const std::uint32_t* control) override { side_.stepper().load_control(control); }
+  void load(const std::uint32_t* control) override { side_.stepper().load(control); }
   [[nodiscard]] bool may_have(std::uint32_t action) const override {
-    return side_.stepper().may_have_move(tried_[action].choice);
+    return side_.stepper().may_have(tried_[action].choice);
   }
   [[nodiscard]] Outcome take(std::uint32_t action, SystemOracle& oracle) override;
   [[nodiscard]] Outcome take_fault() override;
@@ -63,6 +61,13 @@ class CatalogSystem final : public ControlSystem {
   [[nodiscard]] Set before_marks(Set set) override;
   void set_mark(std::vector<std::uint8_t>& environment) override;
   void for_each_kept(const std::function<void(Set)>& keep) const override;
+
+ protected:
+  /// Lets the stepper record its moves, and tell of their answers.
+  void watch(MoveTrace& trace, AnswerListener& listener) {
+    side_.stepper().set_trace(&trace);
+    side_.stepper().set_listener(&listener);
+  }
 
  private:
   /// Of an action.

@@ -37,7 +37,7 @@ ControlStepper::ControlStepper(const Model& model, const Stepper::Options& optio
 void ControlStepper::take(const Model::Choice& choice, const Environments::Effect& effect,
                           SystemOracle& oracle) {
   EffectOracle asked(environments_, effect, oracle);
-  stepper_.take_control(choice, environments_.possible_after(effect), asked);
+  stepper_.take(choice, environments_.possible_after(effect), asked);
 }
 
 void ControlStepper::take_repair(std::uint32_t behavior) {

@@ -18,9 +18,10 @@ class SystemOracle {
   [[nodiscard]] virtual bool is_in(Diagrams::Set set) = 0;
 };
 
-/// What moves do to controls and environments: all that an exploration asks about states. A control
-/// is some 32-bit words, an environment a string of bits. Its sets mean something in it only. Not
-/// for use by several threads.
+/// What moves do to controls and environments: all that an exploration asks about states, so that
+/// StateSpace explores a catalog, two of them in lockstep, or a catalog whose goals are watched,
+/// without knowing which. A control is some 32-bit words, an environment a string of bits. Its sets
+/// mean something in it only. Not for use by several threads.
 class ControlSystem {
  public:
   using Set = Diagrams::Set;
@@ -84,6 +85,15 @@ class ControlSystem {
   /// What comes of a fault, and of a repair of a kind, which does not depend on the environment.
   [[nodiscard]] virtual Outcome take_fault() = 0;
   [[nodiscard]] virtual Outcome take_repair(std::uint32_t kind) = 0;
+
+  // A state of the loaded control.
+
+  /// Whether it has the move.
+  [[nodiscard]] bool has(const StateMove& move, const std::vector<std::uint8_t>& environment);
+  /// What the move does to its environment.
+  void change(const StateMove& move, std::vector<std::uint8_t>& environment) const;
+  /// What the move makes of its control.
+  [[nodiscard]] Outcome make(const StateMove& move, const std::vector<std::uint8_t>& environment);
 
   // A mark, which is a part of environments that states get as they are entered.
 

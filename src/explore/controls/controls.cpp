@@ -22,23 +22,38 @@ class Controls::Asked final : public SystemOracle {
 
   [[nodiscard]] bool is_in(Set set) override {
     if (set == Diagrams::all || set == Diagrams::empty) return set == Diagrams::all;
-    const bool answer = controls_.system_.sets().contains(set, environment_);
+    const bool answer = contains(set);
     // Behaviors often depend on the same, and so do those of two catalogs.
     std::vector<Set>& known = controls_.known_;
     if (std::find(known.begin(), known.end(), set) != known.end()) return answer;
     known.push_back(set);
-    if (controls_.at(place_) == 0) {
+    // What was asked before may be more than what is asked now.
+    while (is_question() && asked_here() != set) go_on(contains(asked_here()));
+    if (!is_question()) {
       controls_.at(place_) = static_cast<Tree>(controls_.questions_.size());
       controls_.questions_.push_back({set, {0, 0}});
     }
-    place_ = {controls_.at(place_), answer ? 1U : 0U, false};
+    go_on(answer);
     return answer;
   }
 
   /// Where the outcome belongs.
-  [[nodiscard]] const Place& place() const { return place_; }
+  [[nodiscard]] const Place& place() {
+    while (is_question()) go_on(contains(asked_here()));
+    return place_;
+  }
 
  private:
+  [[nodiscard]] bool contains(Set set) const {
+    return controls_.system_.sets().contains(set, environment_);
+  }
+  [[nodiscard]] bool is_question() const {
+    const Tree tree = controls_.at(place_);
+    return tree != 0 && (tree & is_outcome) == 0;
+  }
+  [[nodiscard]] Set asked_here() const { return controls_.questions_[controls_.at(place_)].asked; }
+  void go_on(bool answer) { place_ = {controls_.at(place_), answer ? 1U : 0U, false}; }
+
   Controls& controls_;
   const std::vector<std::uint8_t>& environment_;
   Place place_;

@@ -67,30 +67,6 @@ void Environments::write_first(std::vector<std::uint8_t>& string) const {
   }
 }
 
-void Environments::write_cells(const std::vector<std::uint8_t>& string,
-                               std::uint16_t* cells) const {
-  const Model::Layout& layout = model_.layout();
-  for (std::uint32_t variable = 0; variable < bits_.variables.size(); ++variable) {
-    const EnvironmentBits::Variable& bits = bits_.variables[variable];
-    if (bits.first == none) continue;
-    std::uint32_t code = 0;
-    for (std::uint32_t place = 0; place < bits.width; ++place) {
-      code = code * 2 + string[bits.first + place];
-    }
-    const Model::Variable& variable_of = model_.variables()[variable];
-    const auto value = std::find(bits.codes.begin(), bits.codes.end(), code) - bits.codes.begin();
-    cells[variable_of.cell] = static_cast<std::uint16_t>(
-        code == bits.code_at_first ? variable_of.initial : static_cast<std::uint32_t>(value));
-  }
-  const auto write = [&](std::uint32_t first, const std::vector<std::uint32_t>& places) {
-    for (std::uint32_t place = 0; place < places.size(); ++place) {
-      if (places[place] != none) cells[first + place] = string[places[place]];
-    }
-  };
-  write(layout.own, bits_.own);
-  write(layout.faulty, bits_.fault);
-}
-
 // Conditions.
 
 Environments::Set Environments::with_code(std::uint32_t variable, std::uint32_t code) {
@@ -107,9 +83,13 @@ Environments::Set Environments::with_value(std::uint32_t variable, std::uint32_t
   return sets_.either(usual, with_code(variable, bits.code_at_first));
 }
 
+Environments::Set Environments::with_own_flag(std::uint32_t own) {
+  return bits_.own[own] == none ? Diagrams::empty : sets_.with(bits_.own[own], true);
+}
+
 Environments::Set Environments::denied(std::uint32_t behavior) {
   const std::uint32_t own = model_.behaviors()[behavior].own;
-  if (own != none && bits_.own[own] != none) return sets_.with(bits_.own[own], true);
+  if (own != none && bits_.own[own] != none) return with_own_flag(own);
   return has_bit(model_.denied().data(), behavior) ? Diagrams::all : Diagrams::empty;
 }
 

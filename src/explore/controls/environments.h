@@ -42,14 +42,13 @@ class Environments {
   /// Writes that of the first state, all but the mark.
   void write_first(std::vector<std::uint8_t>& string) const;
 
-  /// Writes the cells of a state that an environment decides.
-  void write_cells(const std::vector<std::uint8_t>& string, std::uint16_t* cells) const;
-
   // Conditions, as sets of all environments that satisfy them.
 
+  [[nodiscard]] Set fitting(std::uint32_t behavior) const { return fitting_[behavior]; }
   [[nodiscard]] Set available(std::uint32_t behavior) const { return available_[behavior]; }
   [[nodiscard]] Set faulty(std::uint32_t behavior) const;
   [[nodiscard]] Set denied(std::uint32_t behavior);
+  [[nodiscard]] Set with_own_flag(std::uint32_t own);
   [[nodiscard]] Set with_value(std::uint32_t variable, std::uint32_t value);
 
   /// What a move does to environments.

@@ -190,7 +190,6 @@ class Model {
   [[nodiscard]] const std::vector<Word>& denied() const { return denied_; }
 
   [[nodiscard]] const Layout& layout() const { return layout_; }
-  [[nodiscard]] const std::vector<Field>& fields() const { return fields_; }
   /// Number of 32-bit words of a packed state.
   [[nodiscard]] std::size_t packed_words() const { return packed_words_; }
   /// The moves that some state may have, in order.
@@ -198,11 +197,6 @@ class Model {
 
   /// The cells of the first state.
   [[nodiscard]] std::vector<std::uint16_t> first_state() const;
-  [[nodiscard]] std::vector<std::uint32_t> packed_first() const {
-    std::vector<std::uint32_t> packed(packed_words_);
-    pack(first_state().data(), packed.data());
-    return packed;
-  }
 
   /// Why no state can be explored, if so: `never` excludes the first one, or a number is too large
   /// for a cell. Then this model must not be used for anything else.

@@ -14,11 +14,12 @@ constexpr std::size_t requests_in_word = 4;
 
 }  // namespace
 
-Decisions::Decisions(const Model& model, std::size_t most_bytes, DecisionListener listener)
+Decisions::Decisions(const Model& model, const CompiledCatalog& catalog, std::size_t most_bytes,
+                     DecisionListener listener)
     : model_(model),
       most_bytes_(most_bytes),
       listener_(std::move(listener)),
-      solver_(model.catalog(), SearchOptions{}),
+      solver_(catalog, SearchOptions{}),
       value_words_(words_for(model.value_count())),
       task_words_(words_for(model.tasks().size())),
       key_words_(1 + 2 * value_words_ + task_words_ +

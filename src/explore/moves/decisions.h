@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "explore/model/model.h"
@@ -34,7 +35,12 @@ class Decisions {
  public:
   /// Beyond `most_bytes` of answers, all are forgotten. `listener` may be empty.
   explicit Decisions(const Model& model, std::size_t most_bytes = std::size_t{256} << 20U,
-                     DecisionListener listener = {});
+                     DecisionListener listener = {})
+      : Decisions(model, model.catalog(), most_bytes, std::move(listener)) {}
+  /// About a catalog that has the tasks, behaviors and values of the model, and no constraint that
+  /// its catalog has not. It must outlive this object, as the model must.
+  Decisions(const Model& model, const CompiledCatalog& catalog, std::size_t most_bytes,
+            DecisionListener listener = {});
   Decisions(const Decisions&) = delete;
   Decisions& operator=(const Decisions&) = delete;
 

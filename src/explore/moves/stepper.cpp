@@ -5,10 +5,9 @@
 // of timed automata", Theoretical Computer Science 126 (1994)), would rule out timeouts that cannot
 // come, for very many times as many states.
 //
-// A coordinator that resumes a snapshot could make each move as well, as it does in
-// goal_search.cpp, and nothing would be written twice. But explorations make millions of moves,
-// most of which need no more than a few words and an answer that Decisions remembers. Property
-// tests explore with coordinators as well, and compare.
+// A coordinator that resumes a snapshot could make each move as well, and nothing would be written
+// twice. But explorations make millions of moves, most of which need no more than a few words and
+// an answer that Decisions remembers. Property tests explore with coordinators, and compare.
 
 #include "explore/moves/stepper.h"
 
@@ -53,15 +52,10 @@ Stepper::Stepper(const Model& model, const Options& options)
 
 void Stepper::load(const std::uint32_t* packed) {
   model_.unpack(packed, before_.cells.data());
-  derive(before_, true);
+  derive(before_);
 }
 
-void Stepper::load_control(const std::uint32_t* packed) {
-  model_.unpack(packed, before_.cells.data());
-  derive(before_, false);
-}
-
-void Stepper::derive(State& state, bool situation_too) const {
+void Stepper::derive(State& state) const {
   std::fill(state.values.begin(), state.values.end(), 0);
   std::fill(state.running.begin(), state.running.end(), 0);
   std::fill(state.active.begin(), state.active.end(), 0);
@@ -74,7 +68,6 @@ void Stepper::derive(State& state, bool situation_too) const {
     set_bit(state.running.data(), task);
     set_bit(state.active.data(), model_.behavior_of(value));
   }
-  if (situation_too) derive_situation(state);
 }
 
 void Stepper::Possible::clear(const Model& model) {
@@ -110,31 +103,6 @@ void Stepper::Possible::remove(const Model& model, std::uint32_t behavior) {
   }
 }
 
-void Stepper::derive_situation(State& state) const {
-  state.possible.clear(model_);
-  std::vector<Word>& fitting = state.possible.fitting;
-  std::fill(fitting.begin(), fitting.end(), ~Word{0});
-  for (std::uint32_t place = 0; place < model_.variables().size(); ++place) {
-    const auto& misfits = model_.variables()[place].misfits[value_of(state, place)];
-    for (std::size_t word = 0; word < misfits.size(); ++word) fitting[word] &= ~misfits[word];
-  }
-  for (std::uint32_t behavior = 0; behavior < model_.behaviors().size(); ++behavior) {
-    if (!has_bit(fitting.data(), behavior)) continue;
-    state.possible.add(model_, behavior, !is_denied(state, behavior));
-  }
-}
-
-bool Stepper::is_denied(const State& state, std::uint32_t behavior) const {
-  const std::uint32_t own = model_.behaviors()[behavior].own;
-  return own == none ? has_bit(model_.denied().data(), behavior)
-                     : state.cells[model_.layout().own + own] != 0;
-}
-
-std::uint32_t Stepper::value_of(const State& state, std::uint32_t variable) const {
-  const Model::Variable& described = model_.variables()[variable];
-  return described.cell == none ? described.initial : state.cells[described.cell];
-}
-
 Model::Rank Stepper::rank_in(const State& state, std::uint32_t task) const {
   const Model::Layout& layout = model_.layout();
   for (std::uint32_t place = 0; place < layout.request_count; ++place) {
@@ -153,7 +121,7 @@ bool Stepper::is_settled() const {
 
 // Moves.
 
-bool Stepper::may_have_move(const Model::Choice& choice) const {
+bool Stepper::may_have(const Model::Choice& choice) const {
   const std::uint32_t subject = choice.subject;
   const bool is_active = choice.move.kind > Move::Kind::stop &&
                          choice.move.kind < Move::Kind::fault &&
@@ -181,69 +149,8 @@ bool Stepper::may_have_move(const Model::Choice& choice) const {
   }
 }
 
-bool Stepper::has_move(const Model::Choice& choice) const {
-  const std::uint32_t subject = choice.subject;
-  switch (choice.move.kind) {
-    case Move::Kind::situation_change:
-      return may_have_move(choice) && is_denied(subject);
-    case Move::Kind::fault: {
-      if (is_faulty(subject)) return false;
-      const Model::Layout& layout = model_.layout();
-      const auto first = before_.cells.begin() + layout.faulty;
-      const auto faulty = std::count(first, first + layout.faulty_count, std::uint16_t{1});
-      return static_cast<std::uint32_t>(faulty) < model_.assumptions().faults;
-    }
-    case Move::Kind::repair:
-      return is_faulty(subject);
-    case Move::Kind::variable:
-      return value_of(subject) != choice.choice;
-    case Move::Kind::together: {
-      const auto& values = model_.joint_changes()[subject].values;
-      return std::count_if(values.begin(), values.end(),
-                           [&](const auto& one) { return value_of(one.first) != one.second; }) >= 2;
-    }
-    default:
-      return may_have_move(choice);
-  }
-}
-
-bool Stepper::take(const Model::Choice& choice) {
-  now_ = before_;
-  accepted_ = false;
-  const Model::Layout& layout = model_.layout();
-  const std::uint32_t subject = choice.subject;
-  switch (choice.move.kind) {
-    case Move::Kind::fault:
-      now_.cells[layout.faulty + model_.behaviors()[subject].fault] = 1;
-      break;
-    case Move::Kind::repair:
-      now_.cells[layout.faulty + model_.behaviors()[subject].fault] = 0;
-      break;
-    case Move::Kind::variable:
-      now_.cells[model_.variables()[subject].cell] = static_cast<std::uint16_t>(choice.choice);
-      if (!enter_situation()) return false;
-      break;
-    case Move::Kind::own: {
-      std::uint16_t& cell = now_.cells[layout.own + subject];
-      cell = cell == 0 ? 1 : 0;
-      if (!enter_situation()) return false;
-      break;
-    }
-    case Move::Kind::together:
-      for (const auto& [variable, value] : model_.joint_changes()[subject].values) {
-        now_.cells[model_.variables()[variable].cell] = static_cast<std::uint16_t>(value);
-      }
-      if (!enter_situation()) return false;
-      break;
-    default:
-      break;
-  }
-  make(choice);
-  return true;
-}
-
-void Stepper::take_control(const Model::Choice& choice, const Possible& possible,
-                           EnvironmentOracle& environment) {
+void Stepper::take(const Model::Choice& choice, const Possible& possible,
+                   EnvironmentOracle& environment) {
   now_ = before_;
   now_.possible = possible;
   accepted_ = false;
@@ -385,13 +292,6 @@ void Stepper::start_reactive(std::uint32_t reactive) {
   }
 }
 
-/// False if the new situation is excluded.
-bool Stepper::enter_situation() {
-  if (model_.is_excluded(now_.cells.data())) return false;
-  derive_situation(now_);
-  return true;
-}
-
 /// What follows a change of the situation.
 void Stepper::adapt() {
   open_event(Verb::situation, Origin::script, none);
@@ -424,26 +324,18 @@ bool Stepper::is_available_now(std::uint32_t behavior) {
   return false;
 }
 
-/// What is possible is so, unless there is an environment to ask.
 bool Stepper::is_confirmed(EnvironmentQuery::Kind kind, std::uint32_t behavior) const {
-  return environment_ == nullptr || environment_->holds({kind, behavior});
+  return environment_->holds({kind, behavior});
 }
 
 bool Stepper::is_faulty_now(std::uint32_t behavior) const {
-  const std::uint32_t fault = model_.behaviors()[behavior].fault;
-  if (fault == none) return false;
-  return environment_ != nullptr ? environment_->holds({EnvironmentQuery::Kind::faulty, behavior})
-                                 : now_.cells[model_.layout().faulty + fault] != 0;
+  return model_.behaviors()[behavior].fault != none &&
+         environment_->holds({EnvironmentQuery::Kind::faulty, behavior});
 }
 
 /// Whether a behavior of the group has become available.
 bool Stepper::gains(std::uint32_t group) const {
-  if (environment_ != nullptr) return environment_->holds({EnvironmentQuery::Kind::gains, group});
-  const BitRange behaviors = model_.groups()[group].behaviors;
-  for (std::uint32_t behavior = behaviors.begin; behavior < behaviors.end; ++behavior) {
-    if (has_bit(now_.possible.available.data(), behavior) && !is_available(behavior)) return true;
-  }
-  return false;
+  return environment_->holds({EnvironmentQuery::Kind::gains, group});
 }
 
 /// The first set of the queue: its tasks one after the other in catalog order, as far as they are

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cbc/event.h"
@@ -44,22 +45,44 @@ struct EnvironmentQuery {
   std::uint32_t subject = 0;
 };
 
-/// Stands for the environment where it is not part of a state.
+/// Stands for the environment, which is no part of a control.
 class EnvironmentOracle {
  public:
   virtual ~EnvironmentOracle() = default;
   [[nodiscard]] virtual bool holds(EnvironmentQuery query) = 0;
 };
 
-/// Takes a state from one move to the next (docs/verify.md, "Moves"): the coordinator's events on
-/// packed states, without records. Not for use by several threads.
+class AnswerListener;
+
+/// Makes moves (docs/verify.md, "Moves"): the coordinator's events on packed states, without
+/// records. It exists beside the coordinator because an exploration makes millions of moves, and
+/// because it knows of a state only the control: all but the environment, which is asked about
+/// where a decision depends on it, so that one move stands for that of all environments with the
+/// same answers. Not for use by several threads.
 ///
-/// Or only its control: all but the environment, which is asked about where a decision depends on
-/// it. A decision is first made as if all were available that is not known to be unavailable. If
-/// what it uses is available, it is the decision: the best of more choices is the best of fewer
-/// that it is one of, and where more have no solution, fewer have none.
+/// A decision is first made as if all were available that is not known to be unavailable. If what
+/// it uses is available, it is the decision: the best of more choices is the best of fewer that it
+/// is one of, and where more have no solution, fewer have none.
 class Stepper {
  public:
+  struct Trigger {
+    enum class Kind : std::uint8_t { start, stop, finish };
+    Kind kind = Kind::start;
+    std::uint32_t group = 0;
+    std::uint32_t task = none;
+    std::uint32_t behavior = none;
+    FinishCause cause = FinishCause::goal_achieved;
+    Model::Rank ranks = 0;  ///< of start and stop: requests of ranks below it are not protected
+    Model::Rank rank = 0;   ///< of start: that of its request
+    bool is_reactive = false;
+  };
+  /// What an event is answered with.
+  struct Answer {
+    const Trigger& trigger;
+    Model::Rank first = 0;           ///< the protection at first,
+    Model::Rank ranks = 0;           ///< and that of the answer
+    const Word* solution = nullptr;  ///< the values of its group; null: it is rejected
+  };
   struct Options {
     bool reduce = false;                                 ///< see ExplorationOptions
     std::size_t decision_bytes = std::size_t{64} << 20;  ///< for remembered decisions
@@ -69,24 +92,6 @@ class Stepper {
   Stepper(const Model& model, const Options& options);
   explicit Stepper(const Model& model) : Stepper(model, Options()) {}
 
-  /// Takes up a state. `packed` is read at once.
-  void load(const std::uint32_t* packed);
-
-  /// Whether the state has this move.
-  [[nodiscard]] bool has_move(const Model::Choice& choice) const;
-  /// Makes a move from the state that load took up. False: the move leads into an excluded
-  /// situation and does not exist. Of start: was_accepted() tells the outcome.
-  bool take(const Model::Choice& choice);
-  /// The same if the state has the move; otherwise false, too.
-  bool try_move(const Model::Choice& choice) { return has_move(choice) && take(choice); }
-  /// All moves that some state may have, in order.
-  [[nodiscard]] const std::vector<Model::Choice>& choices() const { return model_.moves(); }
-  /// The move that a choice stands for in the loaded state.
-  [[nodiscard]] Move move_of(const Model::Choice& choice) const {
-    Move move = choice.move;
-    if (move.kind == Move::Kind::own) move.choice = cells()[model_.layout().own + choice.subject];
-    return move;
-  }
   [[nodiscard]] bool was_accepted() const { return accepted_; }
   /// Which behaviors fit or are available in some environment, and the values that they perform.
   struct Possible {
@@ -101,14 +106,13 @@ class Stepper {
     void remove_available(const Model& model, std::uint32_t behavior);
     void remove(const Model& model, std::uint32_t behavior);
   };
-  /// Takes up a control.
-  void load_control(const std::uint32_t* packed);
-  /// Whether a control has this move in some environment.
-  [[nodiscard]] bool may_have_move(const Model::Choice& choice) const;
-  /// Makes a move from the control that load took up, of which the environment cells do not count;
-  /// of a repair what comes of it besides. `possible`: after the move.
-  void take_control(const Model::Choice& choice, const Possible& possible,
-                    EnvironmentOracle& environment);
+  /// Takes up a control. `packed` is read at once.
+  void load(const std::uint32_t* packed);
+  /// Whether the control has this move in some environment.
+  [[nodiscard]] bool may_have(const Model::Choice& choice) const;
+  /// Makes a move from the control, of which the environment cells do not count; of a repair what
+  /// comes of it besides. `possible`: after the move.
+  void take(const Model::Choice& choice, const Possible& possible, EnvironmentOracle& environment);
 
   /// Instead of a move: leaves the state as it is.
   void stay();
@@ -116,34 +120,42 @@ class Stepper {
   [[nodiscard]] bool has_joined(std::uint32_t reactive) const {
     return now_.cells[model_.layout().queue + reactive] == joined_set_ && joined_set_ != 0;
   }
-  /// Writes the state after the move.
-  void pack(std::uint32_t* packed) const { model_.pack(now_.cells.data(), packed); }
-  /// The cells of the state after the move.
+  /// The cells after the move.
   [[nodiscard]] const std::uint16_t* cells_after() const { return now_.cells.data(); }
 
   /// Records what moves do from now on; null: nothing.
   void set_trace(MoveTrace* trace) { trace_ = trace; }
 
-  // The state that load took up.
+  /// Tells of the answers of moves from now on; null: to nobody.
+  void set_listener(AnswerListener* listener) { listener_ = listener; }
+
+  // For the listener, while it is told of an answer.
+
+  /// The answer of some decisions, perhaps about a catalog with fewer constraints, at the
+  /// protection `ranks` or, of a finish, the least after it that has one, which `ranks` becomes.
+  /// Null: there is none. The environment is asked if `is_asked`; otherwise all counts as available
+  /// that is not known to be unavailable.
+  [[nodiscard]] const Word* solve(Decisions& decisions, const Trigger& trigger, Model::Rank& ranks,
+                                  bool is_asked);
+  /// What would have been answered if no request were protected.
+  [[nodiscard]] const Word* answer_unprotected(const Trigger& trigger);
+  /// The values that may be in an answer, as far as is known of the environment.
+  [[nodiscard]] const std::vector<Word>& domains() const { return domains_; }
+  /// Asks the environment whether a value of these may be in an answer.
+  [[nodiscard]] bool may_have(const Trigger& trigger, std::uint32_t value);
+  /// Whether the behavior that has finished performed the task.
+  [[nodiscard]] bool has_finished(const Trigger& trigger, std::uint32_t task) const {
+    if (trigger.kind != Trigger::Kind::finish || now_.cells[task] == 0) return false;
+    const std::uint32_t value = model_.tasks()[task].values.begin + now_.cells[task] - 1;
+    return model_.behavior_of(value) == trigger.behavior;
+  }
+
+  // The control that load took up.
 
   [[nodiscard]] const std::uint16_t* cells() const { return before_.cells.data(); }
   [[nodiscard]] const std::vector<Word>& running() const { return before_.running; }
   [[nodiscard]] const std::vector<Word>& active() const { return before_.active; }
   [[nodiscard]] const std::vector<Word>& values() const { return before_.values; }
-  [[nodiscard]] bool is_available(std::uint32_t behavior) const {
-    return has_bit(before_.possible.available.data(), behavior);
-  }
-  [[nodiscard]] bool is_faulty(std::uint32_t behavior) const {
-    const std::uint32_t fault = model_.behaviors()[behavior].fault;
-    return fault != none && cells()[model_.layout().faulty + fault] != 0;
-  }
-  /// Whether own(b) is false.
-  [[nodiscard]] bool is_denied(std::uint32_t behavior) const {
-    return is_denied(before_, behavior);
-  }
-  [[nodiscard]] std::uint32_t value_of(std::uint32_t variable) const {
-    return value_of(before_, variable);
-  }
   [[nodiscard]] bool is_settled() const;
   /// The rank of the task's request, plus 1; 0: none.
   [[nodiscard]] Model::Rank request_of(std::uint32_t task) const { return rank_in(before_, task); }
@@ -151,53 +163,33 @@ class Stepper {
   [[nodiscard]] const Decisions& decisions() const { return decisions_; }
 
  private:
-  /// A state: its cells, and bit sets that follow from them.
+  /// A control: its cells, and bit sets that follow from them.
   struct State {
     std::vector<std::uint16_t> cells;
     std::vector<Word> values;   ///< that tasks have
     std::vector<Word> running;  ///< tasks
     std::vector<Word> active;   ///< behaviors
-    Possible possible;          ///< in its environment, or what is not known to be impossible
-  };
-  struct Trigger {
-    enum class Kind : std::uint8_t { start, stop, finish };
-    Kind kind = Kind::start;
-    std::uint32_t group = 0;
-    std::uint32_t task = none;
-    std::uint32_t behavior = none;
-    FinishCause cause = FinishCause::goal_achieved;
-    Model::Rank ranks = 0;  ///< of start and stop: requests of ranks below it are not protected
-    Model::Rank rank = 0;   ///< of start: that of its request
-    bool is_reactive = false;
+    Possible possible;          ///< what is not known to be impossible
   };
 
   /// The set of a task that has joined the queue during the present move.
   static constexpr std::uint16_t joined_now = UINT16_MAX;
 
-  void derive(State& state, bool situation_too) const;
-  void derive_situation(State& state) const;
-  [[nodiscard]] bool is_denied(const State& state, std::uint32_t behavior) const;
-  [[nodiscard]] std::uint32_t value_of(const State& state, std::uint32_t variable) const;
+  void derive(State& state) const;
   [[nodiscard]] Model::Rank rank_in(const State& state, std::uint32_t task) const;
 
   bool coordinate(const Trigger& trigger);
-  [[nodiscard]] const Word* solve(const Trigger& trigger, Model::Rank first_ranks);
-  [[nodiscard]] const Word* ask(const Trigger& trigger, Model::Rank ranks);
+  [[nodiscard]] const Word* ask(Decisions& decisions, const Trigger& trigger, Model::Rank ranks);
+  [[nodiscard]] bool is_silent(const Trigger& trigger) const;
   void find_domains(const Trigger& trigger);
   [[nodiscard]] bool is_possible(const Trigger& trigger, const Word* solution);
   [[nodiscard]] bool has_known_order(const Trigger& trigger, const Word* solution);
-  [[nodiscard]] bool may_have(const Trigger& trigger, std::uint32_t value);
   [[nodiscard]] bool fits(std::uint32_t behavior);
   [[nodiscard]] bool is_available_now(std::uint32_t behavior);
   [[nodiscard]] bool is_confirmed(EnvironmentQuery::Kind kind, std::uint32_t behavior) const;
   [[nodiscard]] bool is_faulty_now(std::uint32_t behavior) const;
   [[nodiscard]] bool gains(std::uint32_t group) const;
   void rank_requests(const Trigger& trigger);
-  [[nodiscard]] bool has_finished(const Trigger& trigger, std::uint32_t task) const {
-    if (trigger.kind != Trigger::Kind::finish || now_.cells[task] == 0) return false;
-    const std::uint32_t value = model_.tasks()[task].values.begin + now_.cells[task] - 1;
-    return model_.behavior_of(value) == trigger.behavior;
-  }
   [[nodiscard]] Model::Rank first_protection(const Trigger& trigger) const;
   void find_wanted(const Word* solution);
   [[nodiscard]] std::uint32_t first_failure() const;
@@ -215,7 +207,6 @@ class Stepper {
   void finish(std::uint32_t behavior, FinishCause cause, Origin origin);
   void finish_lost();
   void start_reactive(std::uint32_t reactive);
-  [[nodiscard]] bool enter_situation();
   void adapt();
   void make(const Model::Choice& choice);
   void come_due();
@@ -254,7 +245,17 @@ class Stepper {
 
   std::vector<std::vector<std::uint32_t>> deactivation_order_;  ///< by group
   MoveTrace* trace_ = nullptr;
-  EnvironmentOracle* environment_ = nullptr;  ///< null: the state has it
+  AnswerListener* listener_ = nullptr;
+  EnvironmentOracle* environment_ = nullptr;  ///< of the present move
+};
+
+/// Is told what the events of a move decide, while it is made: of an exploration what
+/// EventListener is of a coordinator.
+class AnswerListener {
+ public:
+  virtual ~AnswerListener() = default;
+  /// An event is answered, and nothing has changed yet.
+  virtual void on_answer(Stepper& stepper, const Stepper::Answer& answer) = 0;
 };
 
 }  // namespace cbc

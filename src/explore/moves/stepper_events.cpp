@@ -64,8 +64,13 @@ bool Stepper::coordinate(const Trigger& trigger) {
   rank_requests(trigger);
   const Model::Rank first = is_finish ? first_protection(trigger) : trigger.ranks;
   for (;;) {
-    const Word* const solution = solve(trigger, first);
+    Model::Rank ranks = first;
+    const Word* const solution = solve(decisions_, trigger, ranks, true);
+    const auto tell = [&] {
+      if (listener_ != nullptr) listener_->on_answer(*this, {trigger, first, ranks, solution});
+    };
     if (solution == nullptr) {
+      if (!is_silent(trigger)) tell();
       reject(trigger);
       return false;
     }
@@ -73,6 +78,7 @@ bool Stepper::coordinate(const Trigger& trigger) {
     const std::uint32_t failing = first_failure();
     if (trace_ != nullptr) note_changes(wanted_.data(), trigger.group, failing);
     if (failing == none) {
+      tell();
       accept(trigger, solution);
       return true;
     }
@@ -106,13 +112,19 @@ void Stepper::find_wanted(const Word* solution) {
                [&](std::uint32_t value) { set_bit(wanted_.data(), model_.behavior_of(value)); });
 }
 
+/// Whether it is no event that there is no answer: the task waited before, and nothing happened.
+bool Stepper::is_silent(const Trigger& trigger) const {
+  if (!trigger.is_reactive || has_excluded_) return false;
+  return now_.cells[model_.layout().waiting + model_.tasks()[trigger.task].reactive] != 0;
+}
+
 /// Escalates the protection of a finish until there is a solution.
-const Word* Stepper::solve(const Trigger& trigger, Model::Rank first_ranks) {
+const Word* Stepper::solve(Decisions& decisions, const Trigger& trigger, Model::Rank& ranks,
+                           bool is_asked) {
   find_domains(trigger);
-  Model::Rank ranks = first_ranks;
   for (;;) {
-    const Word* const solution = ask(trigger, ranks);
-    if (solution != nullptr && !is_possible(trigger, solution)) {
+    const Word* const solution = ask(decisions, trigger, ranks);
+    if (solution != nullptr && is_asked && !is_possible(trigger, solution)) {
       find_domains(trigger);
       continue;
     }
@@ -129,7 +141,12 @@ const Word* Stepper::solve(const Trigger& trigger, Model::Rank first_ranks) {
   }
 }
 
-const Word* Stepper::ask(const Trigger& trigger, Model::Rank ranks) {
+const Word* Stepper::answer_unprotected(const Trigger& trigger) {
+  Model::Rank all = UINT16_MAX;
+  return solve(decisions_, trigger, all, true);
+}
+
+const Word* Stepper::ask(Decisions& decisions, const Trigger& trigger, Model::Rank ranks) {
   std::fill(must_run_.begin(), must_run_.end(), 0);
   const Model::Layout& layout = model_.layout();
   const BitRange tasks = model_.groups()[trigger.group].tasks;
@@ -152,12 +169,11 @@ const Word* Stepper::ask(const Trigger& trigger, Model::Rank ranks) {
   question.must_run = must_run_.data();
   question.present = present_.data();
   question.requests = requests_;
-  return decisions_.find(question);
+  return decisions.find(question);
 }
 
 /// Whether all that the answer uses is possible; if not, the domains have changed.
 bool Stepper::is_possible(const Trigger& trigger, const Word* solution) {
-  if (environment_ == nullptr) return true;
   for (std::size_t word = 0; word < present_.size(); ++word) {
     for (Word bits = solution[word]; bits != 0; bits &= bits - 1) {
       const auto value =
@@ -299,7 +315,7 @@ void Stepper::accept(const Trigger& trigger, const Word* solution) {
     }
     cell = after;
   }
-  derive(now_, false);
+  derive(now_);
   update_requests(trigger);
   update_queue(trigger);
 }

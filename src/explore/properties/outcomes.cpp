@@ -63,16 +63,21 @@ std::map<Running, Found> find_first_states(const std::vector<CatalogSystem*>& sy
   return found;
 }
 
-/// What the state that the stepper has loaded is like, besides what runs.
-void describe_environment(const Model& model, const Stepper& state, ReachableOutcome& outcome) {
+/// What a state is like, besides what runs.
+void describe_environment(CatalogSystem& system, const std::vector<std::uint8_t>& environment,
+                          ReachableOutcome& outcome) {
+  const Model& model = system.model();
   const CompiledCatalog& catalog = model.catalog();
+  Environments& environments = system.environments();
+  const auto is_in = [&](Diagrams::Set set) { return system.sets().contains(set, environment); };
   for (std::uint32_t variable = 0; variable < model.variables().size(); ++variable) {
-    outcome.situation.variables.push_back(
-        {model.variables()[variable].id, state.value_of(variable)});
+    std::uint32_t value = 0;
+    while (!is_in(environments.with_value(variable, value))) ++value;
+    outcome.situation.variables.push_back({model.variables()[variable].id, value});
   }
   for (std::uint32_t own = 0; own < model.own_flags().size(); ++own) {
     outcome.situation.behaviors.push_back(
-        {model.own_flags()[own].id, state.cells()[model.layout().own + own] == 0});
+        {model.own_flags()[own].id, !is_in(environments.with_own_flag(own))});
   }
   std::sort(outcome.situation.behaviors.begin(), outcome.situation.behaviors.end(),
             [&](const SituationPart::Own& a, const SituationPart::Own& b) {
@@ -80,7 +85,8 @@ void describe_environment(const Model& model, const Stepper& state, ReachableOut
                      catalog.behaviors[b.behavior].catalog_index;
             });
   for (const std::uint32_t behavior : model.behaviors_in_order()) {
-    if (state.is_faulty(behavior)) outcome.faulty.push_back(model.behaviors()[behavior].id);
+    if (!is_in(environments.faulty(behavior))) continue;
+    outcome.faulty.push_back(model.behaviors()[behavior].id);
   }
 }
 
@@ -89,8 +95,6 @@ void describe_environment(const Model& model, const Stepper& state, ReachableOut
 std::vector<ReachableOutcome> find_outcomes(const std::vector<CatalogSystem*>& systems,
                                             StateSpace& space) {
   std::vector<ReachableOutcome> outcomes;
-  CatalogSystem& system = *systems.front();
-  Stepper stepper(system.model());
   for (const auto& [running, first] : find_first_states(systems, space)) {
     ReachableOutcome& outcome = outcomes.emplace_back();
     outcome.running = running;
@@ -99,8 +103,7 @@ std::vector<ReachableOutcome> find_outcomes(const std::vector<CatalogSystem*>& s
     StateSpace::Path path = space.path_to(noted);
     outcome.script = std::move(path.moves);
     for (const auto& part : space.parts()) part->collect_if_crowded();
-    stepper.load(system.join(path.end.control(), path.end.environment()).data());
-    describe_environment(system.model(), stepper, outcome);
+    describe_environment(*systems.front(), path.end.environment(), outcome);
   }
   std::stable_sort(outcomes.begin(), outcomes.end(),
                    [](const ReachableOutcome& a, const ReachableOutcome& b) {

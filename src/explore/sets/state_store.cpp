@@ -7,13 +7,6 @@ namespace cbc {
 StateStore::StateStore(std::size_t words)
     : words_(words), buckets_(64), bucket_mask_(buckets_.size() - 1) {}
 
-std::uint64_t StateStore::bytes_for(std::uint64_t states) const {
-  std::size_t buckets = buckets_.size();
-  while (is_crowded(states, buckets)) buckets *= 2;
-  const std::uint64_t segments = (states + segment - 1) / segment;
-  return segments * segment * words_ * sizeof(std::uint32_t) + buckets * sizeof(Bucket);
-}
-
 std::uint64_t StateStore::hash(const std::uint32_t* state) const {
   constexpr std::uint64_t factor = 0x9e3779b97f4a7c15U;
   std::uint64_t hash = 0;

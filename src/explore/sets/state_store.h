@@ -17,7 +17,6 @@ namespace cbc {
 class StateStore {
  public:
   using Number = std::uint32_t;
-  static constexpr Number most_states = UINT32_MAX - 1;
 
   explicit StateStore(std::size_t words);
 
@@ -26,9 +25,10 @@ class StateStore {
   [[nodiscard]] const std::uint32_t* state(Number number) const {
     return states_[number / segment].get() + (number % segment) * words_;
   }
-  [[nodiscard]] std::uint64_t bytes() const { return bytes_for(size_); }
-  /// Memory that so many states take.
-  [[nodiscard]] std::uint64_t bytes_for(std::uint64_t states) const;
+  [[nodiscard]] std::uint64_t bytes() const {
+    return states_.size() * segment * words_ * sizeof(std::uint32_t) +
+           buckets_.size() * sizeof(Bucket);
+  }
 
   [[nodiscard]] std::uint64_t hash(const std::uint32_t* state) const;
   /// The number of the state, if it is known.

@@ -85,7 +85,7 @@ void StateSpace::tell(std::size_t part) {
 bool StateSpace::look_at_limits() {
   const std::unique_lock lock(looking_, std::try_to_lock);
   if (!lock.owns_lock()) return !is_stopped_;
-  std::uint64_t bytes = 0;
+  std::uint64_t bytes = bytes_beside_;
   std::uint64_t transitions = 0;
   std::uint64_t controls = 0;
   for (const Told& told : told_) {

@@ -46,6 +46,13 @@ class StateSpace {
   template <typename Visitor, typename IsDone>
   void run(std::vector<Visitor>& visitors, IsDone&& is_done);
 
+  /// For what is done between depths, and takes so many bytes: whether the budget allows to go on;
+  /// otherwise the run ends.
+  [[nodiscard]] bool may_go_on_beside(std::uint64_t bytes) {
+    bytes_beside_ = bytes;
+    return look_at_limits();
+  }
+
   [[nodiscard]] bool is_complete() const { return is_complete_; }
   /// Whether the visitors ended it.
   [[nodiscard]] bool is_decided() const { return is_decided_; }
@@ -104,6 +111,7 @@ class StateSpace {
   bool is_decided_ = false;
   Budget::End end_ = Budget::End::stopped;
   std::uint64_t states_ = 0;
+  std::uint64_t bytes_beside_ = 0;
   std::uint32_t expanded_layers_ = 0;
   std::vector<std::uint64_t> states_at_depth_;
   /// What a part says of itself, while others may ask.

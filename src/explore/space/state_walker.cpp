@@ -1,7 +1,5 @@
 #include "explore/space/state_walker.h"
 
-#include <algorithm>
-
 namespace cbc {
 
 StateWalker::StateWalker(StatePart& part) : part_(&part) {
@@ -17,36 +15,28 @@ void StateWalker::go_on() {
   part_->system().set_mark(environment_);
 }
 
-std::optional<Controls::Outcome> StateWalker::try_move(std::size_t place) {
-  const ControlSystem::StateMove& move = part_->system().moves()[place];
+void StateWalker::go_to(Controls::Number control, const std::vector<std::uint8_t>& environment) {
+  control_ = control;
+  environment_ = environment;
   load();
-  after_ = environment_;
-  const bool has_move = move.fault != none ? try_fault(move) : try_action(move.action);
-  return has_move ? std::optional(outcome_) : std::nullopt;
 }
 
-bool StateWalker::try_fault(const ControlSystem::StateMove& move) {
-  const FaultSets& faults = part_->system().faults();
-  const bool is_repair = move.move.kind == Move::Kind::repair;
-  std::uint8_t& is_faulty = after_[faults.bit_of(move.fault)];
-  if ((is_faulty != 0) != is_repair) return false;
-  const auto count = std::count(environment_.end() - faults.count(), environment_.end(), 1);
-  if (!is_repair && static_cast<std::uint32_t>(count) >= faults.most()) return false;
-  is_faulty = is_repair ? 0 : 1;
-  Controls& controls = part_->controls();
-  outcome_ = is_repair ? controls.after_repair(faults.kind_of(move.fault)) : controls.after_fault();
-  return true;
-}
-
-bool StateWalker::try_action(std::uint32_t action) {
+std::optional<Controls::Outcome> StateWalker::try_move(std::size_t place) {
   ControlSystem& system = part_->system();
-  const ControlSystem::Action& made = system.actions()[action];
-  if (!system.sets().contains(made.condition, environment_) || !system.may_have(action)) {
-    return false;
+  const ControlSystem::StateMove& move = system.moves()[place];
+  load();
+  if (!system.has(move, environment_)) return std::nullopt;
+  after_ = environment_;
+  system.change(move, after_);
+  Controls& controls = part_->controls();
+  if (move.fault == none) {
+    outcome_ = controls.outcome_in(move.action, environment_);
+  } else if (move.move.kind == Move::Kind::repair) {
+    outcome_ = controls.after_repair(system.faults().kind_of(move.fault));
+  } else {
+    outcome_ = controls.after_fault();
   }
-  if (made.changes) system.sets().change(after_, made.values);
-  outcome_ = part_->controls().outcome_in(action, environment_);
-  return true;
+  return outcome_;
 }
 
 }  // namespace cbc

@@ -8,12 +8,15 @@
 
 namespace cbc {
 
-/// Goes from the first state to others, one move at a time. It uses the controls of a part, which
-/// must outlive it, but its states may be of any part.
+/// Goes from the first state to others, one move at a time: sets of environments answer questions,
+/// but a script is about single states. It uses the controls of a part, which must outlive it, but
+/// its states may be of any part.
 class StateWalker {
  public:
   explicit StateWalker(StatePart& part);
 
+  /// Goes to a state without a mark, whose control has this number in the part.
+  void go_to(Controls::Number control, const std::vector<std::uint8_t>& environment);
   /// Takes up the control of the state in the system of the part.
   void load() { part_->controls().load(control_); }
   [[nodiscard]] const std::uint32_t* control() const { return part_->controls().packed(control_); }
@@ -32,9 +35,6 @@ class StateWalker {
   void go_on();
 
  private:
-  [[nodiscard]] bool try_fault(const ControlSystem::StateMove& move);
-  [[nodiscard]] bool try_action(std::uint32_t action);
-
   StatePart* part_;
   Controls::Number control_ = none;
   std::vector<std::uint8_t> environment_;

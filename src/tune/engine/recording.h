@@ -8,7 +8,7 @@
 
 #include "core/script/runner.h"
 #include "core/script/script.h"
-#include "explore/moves/witness.h"
+#include "explore/controls/witness.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/record.h"
 #include "tune/engine/solved_problems.h"

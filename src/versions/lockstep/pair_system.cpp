@@ -4,23 +4,6 @@
 
 namespace cbc {
 
-namespace {
-
-/// Knows the environment.
-class KnownEnvironment final : public SystemOracle {
- public:
-  KnownEnvironment(const Diagrams& sets, const std::vector<std::uint8_t>& environment)
-      : sets_(sets), environment_(environment) {}
-
-  [[nodiscard]] bool is_in(Diagrams::Set set) override { return sets_.contains(set, environment_); }
-
- private:
-  const Diagrams& sets_;
-  const std::vector<std::uint8_t>& environment_;
-};
-
-}  // namespace
-
 PairSystem::Side::Side(const Model& model, const Stepper::Options& options,
                        const EnvironmentBits& bits, Diagrams& sets)
     : controls(model, options, bits, sets) {}
@@ -92,13 +75,13 @@ std::vector<std::uint8_t> PairSystem::first_environment() const {
 }
 
 void PairSystem::load(const std::uint32_t* control) {
-  new_.controls.stepper().load_control(control);
-  old_.controls.stepper().load_control(control + models_.new_model.packed_words());
+  new_.controls.stepper().load(control);
+  old_.controls.stepper().load(control + models_.new_model.packed_words());
 }
 
 bool PairSystem::may_have(std::uint32_t action) const {
   const auto has = [](const Side& side, const Model::Choice* choice) {
-    return choice != nullptr && side.controls.stepper().may_have_move(*choice);
+    return choice != nullptr && side.controls.stepper().may_have(*choice);
   };
   const PairedAction& paired = paired_[action];
   return has(new_, paired.of_new) || has(old_, paired.of_old);
@@ -155,14 +138,7 @@ std::uint32_t PairSystem::note_of(const std::vector<AnswerComparison::Note>& not
 
 void PairSystem::describe(const StateMove& move, const std::vector<std::uint8_t>& environment) {
   answers_.set_with_lines(true);
-  if (move.fault == none) {
-    KnownEnvironment known(sets_, environment);
-    static_cast<void>(take(move.action, known));
-  } else if (move.move.kind == Move::Kind::fault) {
-    static_cast<void>(take_fault());
-  } else {
-    static_cast<void>(take_repair(faults_.kind_of(move.fault)));
-  }
+  static_cast<void>(make(move, environment));
   answers_.set_with_lines(false);
 }
 

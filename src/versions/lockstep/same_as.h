@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/property/properties.h"
-#include "explore/moves/witness.h"
+#include "explore/controls/witness.h"
 #include "explore/properties/explore.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "versions/names/translation.h"

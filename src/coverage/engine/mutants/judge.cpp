@@ -24,7 +24,7 @@
 #include "core/yaml/document.h"
 #include "coverage/engine/goal_proof.h"
 #include "coverage/engine/mutants/mutants.h"
-#include "explore/moves/witness.h"
+#include "explore/controls/witness.h"
 #include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
@@ -182,33 +182,18 @@ ExplorationOptions exploration_options(const MutantJudge::Limits& limits) {
   return options;
 }
 
-/// Visits a group once more, for what is known of its timeouts.
-GoalProof visit_group(const CompiledCatalog& catalog, GroupId group, const Assumptions& assumptions,
-                      const MutantJudge::Limits& limits) {
-  GoalProofOptions options;
-  options.group = group;
-  if (limits.max_states > 0) options.search.max_states = limits.max_states;
-  if (limits.max_memory > 0) {
-    options.search.max_memory = std::min(options.search.max_memory, limits.max_memory);
-  }
-  options.search.on_progress = [&](std::uint32_t, std::uint64_t) {
-    return !limits.is_stopped || !limits.is_stopped();
-  };
-  return prove_unreachable(catalog, {}, assumptions, options);
-}
-
-/// Whether other timeouts always come before these: then they never end anything. The proof is
-/// complete.
+/// Whether other timeouts always come before these: then they never end anything. The facts are
+/// those of a complete search.
 bool never_time_out(const CompiledCatalog& catalog, const std::vector<TimeDifference>& differences,
-                    const GoalProof& proof) {
+                    const GoalFacts& facts) {
   return std::all_of(differences.begin(), differences.end(), [&](const TimeDifference& difference) {
     const TaskId task = catalog.task_ids[difference.task];
     const BehaviorId behavior = catalog.behavior_ids[difference.behavior];
     const auto values = catalog.performs[behavior];
     const ValueId value = *std::find_if(values.begin(), values.end(),
                                         [&](ValueId one) { return catalog.task_of(one) == task; });
-    return timeout_of(catalog, task, behavior) == 0 || proof.facts.performed[value] == 0 ||
-           proof.facts.forestalled_by[value] != none;
+    return timeout_of(catalog, task, behavior) == 0 || facts.performed[value] == 0 ||
+           facts.forestalled_by[value] != none;
   });
 }
 
@@ -379,11 +364,13 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
   if (!is_any_reachable) return;
   for (const CompiledCatalog* const catalog : {&catalog_, &changed}) {
     const GroupId group = catalog->tasks[catalog->task_ids[differences.front().task]].group;
-    const GoalProof proof = visit_group(*catalog, group, assumptions_, limits);
-    if (!proof.error && !proof.groups[group].is_complete) {
-      return give_up(proof.groups[group].end, verdict);
-    }
-    if (!proof.error && never_time_out(*catalog, differences, proof)) continue;
+    GoalFacts facts(*catalog, 0);
+    std::vector<std::uint8_t> no_goals;
+    const GoalSearchOptions of_search{exploration_options(limits).budget};
+    const GoalSearchResult search =
+        GoalSearch(*catalog, {group}, assumptions_, {}, of_search).run(facts, no_goals);
+    if (!search.error && !search.is_complete) return give_up(search.end, verdict);
+    if (!search.error && never_time_out(*catalog, differences, facts)) continue;
     verdict.result = MutantVerdict::Result::undecided;
     verdict.doubt = MutantVerdict::Doubt::no_script;
     return;

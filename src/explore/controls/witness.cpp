@@ -9,7 +9,7 @@
 // A fixed pause between two moves would be simpler, but the queue would come due elsewhere on the
 // path, and the script would end in another state.
 
-#include "explore/moves/witness.h"
+#include "explore/controls/witness.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -19,8 +19,8 @@
 #include <fmt/format.h>
 
 #include "core/script/script.h"
+#include "explore/controls/catalog_system.h"
 #include "explore/model/model.h"
-#include "explore/moves/stepper.h"
 #include "runtime/base/text.h"
 #include "versions/names/translation.h"
 
@@ -39,33 +39,51 @@ struct Timeline {
   std::vector<bool> is_due;
 };
 
-/// `path`: null for a move that the model does not have, and that does nothing.
-Timeline follow(const Model& model, const std::vector<const Model::Choice*>& path,
-                Stepper& stepper) {
+/// A move of the system as it is in the environment, or else in another one: what is a move of only
+/// one of two catalogs is an event of the other, too. Null if the system has none, as with moves of
+/// a queue that only the other one has, and of what is not available in other groups.
+const ControlSystem::StateMove* find_move(CatalogSystem& system, const Move& move,
+                                          const std::vector<std::uint8_t>& environment) {
+  const ControlSystem::StateMove* found = nullptr;
+  for (const ControlSystem::StateMove& one : system.moves()) {
+    const bool is_own = move.kind == Move::Kind::own;
+    if (one.move.kind != move.kind || one.move.subject != move.subject ||
+        (!is_own && one.move.choice != move.choice)) {
+      continue;
+    }
+    if (found == nullptr || system.has(one, environment)) found = &one;
+  }
+  return found;
+}
+
+/// Leaves the system with the control at the end of the path.
+Timeline follow(CatalogSystem& system, const std::vector<Move>& path) {
   Timeline timeline;
   timeline.first_joined.emplace_back();
   timeline.is_due.push_back(false);
-  const Model::Layout& layout = model.layout();
+  const Model::Layout& layout = system.model().layout();
   std::vector<std::size_t> joined(layout.reactive_count, beginning);
-  std::vector<std::uint32_t> packed = model.packed_first();
+  std::vector<std::uint32_t> control = system.first_control();
+  std::vector<std::uint8_t> environment = system.first_environment();
   const auto add_point = [&](bool is_due) {
+    system.load(control.data());
     timeline.is_due.push_back(is_due);
     auto& first = timeline.first_joined.emplace_back();
     for (std::uint32_t reactive = 0; reactive < layout.reactive_count; ++reactive) {
-      if (stepper.cells()[layout.queue + reactive] == 1) first = joined[reactive];
+      if (system.stepper().cells()[layout.queue + reactive] == 1) first = joined[reactive];
     }
   };
-  for (const Model::Choice* const choice : path) {
-    stepper.load(packed.data());
-    add_point(choice != nullptr && choice->move.kind == Move::Kind::due);
-    if (choice == nullptr) continue;
-    static_cast<void>(stepper.take(*choice));
+  for (const Move& move : path) {
+    const ControlSystem::StateMove* const made = find_move(system, move, environment);
+    add_point(made != nullptr && move.kind == Move::Kind::due);
+    if (made == nullptr) continue;
+    const ControlSystem::Outcome outcome = system.make(*made, environment);
+    system.change(*made, environment);
+    control.assign(outcome.control, outcome.control + control.size());
     for (std::uint32_t reactive = 0; reactive < layout.reactive_count; ++reactive) {
-      if (stepper.has_joined(reactive)) joined[reactive] = timeline.is_due.size() - 1;
+      if (system.stepper().has_joined(reactive)) joined[reactive] = timeline.is_due.size() - 1;
     }
-    stepper.pack(packed.data());
   }
-  stepper.load(packed.data());
   add_point(false);
   return timeline;
 }
@@ -128,22 +146,6 @@ Schedule find_schedule(const Timeline& timeline, Microseconds pause) {
   }
 }
 
-/// Null for what the model does not have: moves of a queue that only the other of two catalogs has,
-/// and of what is not available in other groups.
-std::vector<const Model::Choice*> find_choices(const Model& model, const std::vector<Move>& moves) {
-  std::vector<const Model::Choice*> choices;
-  for (const Move& move : moves) {
-    const auto found =
-        std::find_if(model.moves().begin(), model.moves().end(), [&](const auto& choice) {
-          const bool is_own = move.kind == Move::Kind::own;
-          return choice.move.kind == move.kind && choice.move.subject == move.subject &&
-                 (is_own || choice.move.choice == move.choice);
-        });
-    choices.push_back(found != model.moves().end() ? &*found : nullptr);
-  }
-  return choices;
-}
-
 /// The variables that moves change.
 std::set<std::uint32_t> variables_in(const Assumptions& assumptions,
                                      const std::vector<Move>& moves) {
@@ -203,8 +205,9 @@ void add_tasks(const Model& model, const StateCondition& condition, std::set<Tas
   });
 }
 
-/// What holds in the state that the stepper has loaded, as far as the property is about it.
-Expectation expectation_of(const Model& model, const Stepper& stepper, const Property* property) {
+/// What holds with the control that the system has loaded, as far as the property is about it.
+Expectation expectation_of(const CatalogSystem& system, const Property* property) {
+  const Model& model = system.model();
   const CompiledCatalog& catalog = model.catalog();
   Expectation expectation;
   std::set<TaskId> about;
@@ -223,7 +226,7 @@ Expectation expectation_of(const Model& model, const Stepper& stepper, const Pro
     const TaskId id = model.tasks()[task].id;
     if (!about.contains(id)) continue;
     const std::uint32_t index = catalog.tasks[id].catalog_index;
-    const std::uint16_t cell = stepper.cells()[task];
+    const std::uint16_t cell = system.stepper().cells()[task];
     if (cell == 0) {
       expectation.stopped.push_back(index);
       continue;
@@ -313,8 +316,8 @@ Witness make_witness(const CompiledCatalog& catalog, const std::vector<GroupId>&
   const bool ends_with_start = property != nullptr && property->kind == Property::Kind::can_start;
   std::vector<Move> path = moves;
   if (ends_with_start) path.pop_back();
-  Stepper stepper(model);
-  Timeline timeline = follow(model, find_choices(model, path), stepper);
+  CatalogSystem system(model, {}, std::nullopt);
+  Timeline timeline = follow(system, path);
   if (ends_with_start) {
     // The refused start is one point more, before which nothing comes due.
     timeline.is_due.push_back(false);
@@ -343,7 +346,7 @@ Witness make_witness(const CompiledCatalog& catalog, const std::vector<GroupId>&
   }
   Step& end = script.steps.emplace_back();
   end.time = schedule.times.back();
-  end.expect = expectation_of(model, stepper, property);
+  end.expect = expectation_of(system, property);
   witness.comments.push_back(std::exchange(due, {}));
   witness.text = write_script(catalog, script, comment, witness.comments);
   return witness;
@@ -353,9 +356,8 @@ Script make_script(const CompiledCatalog& catalog, const std::vector<GroupId>& g
                    const Assumptions& assumptions, const std::vector<Move>& moves,
                    Microseconds pause) {
   const Model model(catalog, groups, assumptions, variables_in(assumptions, moves));
-  Stepper stepper(model);
-  const Schedule schedule =
-      find_schedule(follow(model, find_choices(model, moves), stepper), pause);
+  CatalogSystem system(model, {}, std::nullopt);
+  const Schedule schedule = find_schedule(follow(system, moves), pause);
   Script script = begin_script(catalog, assumptions, schedule);
   StepWriter writer(catalog, assumptions);
   for (std::size_t place = 0; place < moves.size(); ++place) {
