@@ -6,6 +6,7 @@
 //   + FILE       a file in this folder; its lines follow, set in by two blanks. Before the first
 //                case, a file is one of every case. Without lines, it is copied: a file, or with a
 //                slash at its end a folder, of shared/ or of the repository.
+//   = NAME       a text, for the files of several cases: "+ FILE = NAME"
 //   $ cbc ...    a command. Blanks separate arguments, single quotes keep blanks; "< FILE" and
 //                "> FILE" at the end are its standard input (nothing else) and output (/dev/full)
 //   two blanks   a line that it writes to standard output

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -93,8 +94,10 @@ class Reader {
       end_block(true);
     } else if (line.starts_with("+ ")) {
       end_block(true);
-      std::vector<CaseFile>& files = cases_.empty() ? shared_ : cases_.back().files;
-      file_ = &files.emplace_back(CaseFile{std::string(rest), {}, false});
+      begin_file(rest);
+    } else if (line.starts_with("= ")) {
+      end_block(true);
+      file_ = &texts_[std::string(rest)];
     } else if (line.starts_with("$ ")) {
       end_block(true);
       begin_command(rest);
@@ -111,6 +114,18 @@ class Reader {
     } else {
       fail("this is no line of a session");
     }
+  }
+
+  void begin_file(std::string_view line) {
+    std::vector<CaseFile>& files = cases_.empty() ? shared_ : cases_.back().files;
+    constexpr std::string_view mark = " = ";
+    const std::size_t at = line.find(mark);
+    file_ = &files.emplace_back(CaseFile{std::string(line.substr(0, at)), {}, false});
+    if (at == std::string_view::npos) return;
+    const auto text = texts_.find(std::string(line.substr(at + mark.size())));
+    if (text == texts_.end()) fail("there is no such text above");
+    file_->content = text->second.content;
+    file_->is_in_session = true;
   }
 
   void begin_command(std::string_view line) {
@@ -157,7 +172,8 @@ class Reader {
   fs::path path_;
   std::vector<std::string> lines_;
   std::size_t at_ = 0;
-  std::vector<CaseFile> shared_;  ///< by all cases
+  std::vector<CaseFile> shared_;           ///< by all cases
+  std::map<std::string, CaseFile> texts_;  ///< by name; of files
   std::vector<Case> cases_;
   CaseFile* file_ = nullptr;        ///< that the next lines belong to
   CaseCommand* command_ = nullptr;  ///< the same
