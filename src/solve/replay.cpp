@@ -134,12 +134,7 @@ class Replay {
     const std::vector<std::string>& left_out = log_.left_out();
     if (!left_out.empty()) {
       text.line("  {}", style.paint(style.warning, "left out"));
-      for (std::size_t place = 0; place < std::min(left_out.size(), most_left_out); ++place) {
-        text.line("    {}", left_out[place]);
-      }
-      if (left_out.size() > most_left_out) {
-        text.line("    and {} more", left_out.size() - most_left_out);
-      }
+      text.list(left_out, most_left_out, "    ");
     }
     const std::vector<RunComparison::Line>& lines = comparison_.lines();
     if (lines.empty()) {
@@ -155,7 +150,7 @@ class Replay {
       table.add({is_same ? "" : format_time(line.time), is_same ? "" : line.event, line.what});
       before = &line;
     }
-    text.add(table.text());
+    text.table(table);
     text.line("");
     text.painted(style.bad, "{} of {} decided differently", comparison_.events(),
                  quantity(events_, "event"));

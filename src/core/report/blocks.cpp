@@ -1,10 +1,20 @@
 #include "core/report/blocks.h"
 
 #include <algorithm>
+#include <span>
 
 #include "runtime/base/text.h"
 
 namespace cbc {
+
+void Blocks::list(const std::vector<std::string>& lines, std::size_t most, std::string_view indent,
+                  std::string_view color) {
+  const std::size_t shown = std::min(lines.size(), most);
+  for (const std::string& each : std::span(lines).first(shown)) {
+    painted(color, "{}{}", indent, each);
+  }
+  if (shown < lines.size()) line("{}and {} more", indent, lines.size() - shown);
+}
 
 void Text::add_line(std::string_view color, std::string_view line) {
   const std::size_t indent = line.size() - without_indentation(line).size() + 2;

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -35,6 +36,9 @@ class Blocks {
   void painted(std::string_view color, fmt::format_string<Args...> form, Args&&... args) {
     painted(color, std::string_view(fmt::format(form, std::forward<Args>(args)...)));
   }
+  /// The first ones of some lines, and how many more there are.
+  void list(const std::vector<std::string>& lines, std::size_t most, std::string_view indent = "  ",
+            std::string_view color = {});
   /// What the report, or a large part of it, is about: "robot.yaml, 3 missions".
   virtual void heading(std::string_view heading) = 0;
   /// An empty line, and a title.

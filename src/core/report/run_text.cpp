@@ -308,15 +308,6 @@ namespace {
 /// Longer lists would hide what comes before them.
 constexpr std::size_t most_places = 20;
 
-/// Writes the first ones.
-void write_list(const std::vector<std::string>& lines, std::size_t total, std::string_view color,
-                Text& text) {
-  for (std::size_t place = 0; place < std::min(lines.size(), most_places); ++place) {
-    text.painted(color, "    " + lines[place]);
-  }
-  if (total > most_places) text.line("    and {} more", total - most_places);
-}
-
 void write_failures(const std::string& file, const std::vector<FailedExpectation>& failures,
                     Text& text) {
   std::vector<std::string> lines;
@@ -324,7 +315,7 @@ void write_failures(const std::string& file, const std::vector<FailedExpectation
   for (const FailedExpectation& failed : failures) {
     lines.push_back(fmt::format("{}: {}", format_place(file, failed.range.begin), failed.message));
   }
-  write_list(lines, lines.size(), text.style().bad, text);
+  text.list(lines, most_places, "    ", text.style().bad);
 }
 
 std::string file_of(const RunResult& result) {
@@ -378,10 +369,13 @@ void RunSummary::write(const RunResult& result, Text& text) {
   text.add(table.line({"events", result.events}));
   text.add(table.line({"accepted", result.accepted}));
   text.add(table.line({"rejected", result.rejected}));
-  write_list(rejected_, static_cast<std::size_t>(result.rejected), {}, text);
+  text.list(rejected_, most_places, "    ");
+  if (const std::uint64_t more = result.rejected - rejected_.size(); more > 0) {
+    text.line("    and {} more", more);
+  }
   if (!cycles_.empty()) {
     text.line("  timeouts again and again");
-    write_list(cycles_, cycles_.size(), {}, text);
+    text.list(cycles_, most_places, "    ");
   }
   if (result.failed == 0) return;
   text.add(table.line({"failed expectations", result.failed}, text.style().bad));
@@ -404,7 +398,7 @@ void write_scripts(const std::vector<RunResult>& results, Text& text) {
     table.add({file_of(result), result.events, result.accepted, result.rejected, result.failed},
               result.failed > 0 ? text.style().bad : std::string_view());
   }
-  text.add(table.text());
+  text.table(table);
   for (const RunResult& result : results) write_failures(file_of(result), result.failures, text);
 }
 

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,11 +29,12 @@ class Table {
   enum class Align : std::uint8_t { left, right };
 
   struct Column {
-    std::string title = {};
+    std::string title = {};  ///< its last line stands directly above the column
     Align align = Align::left;
-    std::size_t width = 0;    ///< at least
-    std::size_t gap = 2;      ///< blanks before it
-    bool is_picture = false;  ///< of SVG, which texts leave out
+    std::size_t width = 0;         ///< at least
+    std::size_t gap = 2;           ///< blanks before it
+    bool is_picture = false;       ///< of SVG, which texts leave out
+    bool belongs_to_last = false;  ///< it stays with the column before, where a table is parted
   };
 
   /// A text or a number, and its color.
@@ -56,6 +59,10 @@ class Table {
 
   /// All of it: the titles, if there are any, and the rows.
   [[nodiscard]] std::string text() const;
+  /// The same in as many parts, each after an empty line, as it takes for the columns to fit. The
+  /// first `kept` ones stand in each part. Rows that have only `nothing` in a part are left out.
+  [[nodiscard]] std::string text_in_parts(std::size_t kept,
+                                          std::optional<std::string_view> nothing = {}) const;
   /// The same as an element of HTML, whose first column has titles of rows.
   [[nodiscard]] std::string html(std::string_view element_class) const;
 
@@ -80,5 +87,13 @@ class Table {
 /// A column of numbers.
 [[nodiscard]] Table::Column number_column(std::string title, std::size_t width = 0,
                                           std::size_t gap = 2);
+
+/// A triangular matrix as text, after an empty line: numbered rows with these names, shortened
+/// where they are long, and in each a sign for each pair with a name before it, under the number
+/// of that name. `cell`: the sign of a pair, by the places of both names; the row is greater than
+/// the column.
+[[nodiscard]] std::string pair_matrix(
+    std::vector<std::string> names, const Style& style,
+    const std::function<Table::Cell(std::size_t row, std::size_t column)>& cell);
 
 }  // namespace cbc

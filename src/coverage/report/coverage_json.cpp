@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -151,9 +152,7 @@ constexpr auto catalog = object(
         .on_line(),
     member("goals", list(goal).on_lines(), "All goals: by section, and in it in catalog order.",
            [](const CatalogCoverage& of) {
-             return [&of](const auto& put) {
-               for (std::size_t place = 0; place < of.goals().size(); ++place) put(place);
-             };
+             return std::views::iota(std::size_t{0}, of.goals().size());
            })
         .on_line());
 

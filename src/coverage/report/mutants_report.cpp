@@ -1,5 +1,6 @@
 #include <cstddef>
 #include <cstdint>
+#include <ranges>
 #include <string>
 #include <string_view>
 
@@ -302,12 +303,9 @@ constexpr auto report = object(
            &MutantsResult::assumptions)
         .on_line(),
     part(&MutantsResult::count, counts),
-    member("mutants", list(mutant).on_lines(), "All mutants, by line.",
-           [](const MutantsResult& of) {
-             return [&of](const auto& put) {
-               for (std::size_t place = 0; place < of.mutants.size(); ++place) put(place);
-             };
-           })
+    member(
+        "mutants", list(mutant).on_lines(), "All mutants, by line.",
+        [](const MutantsResult& of) { return std::views::iota(std::size_t{0}, of.mutants.size()); })
         .on_line());
 
 }  // namespace json::mutants

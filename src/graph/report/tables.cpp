@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,7 +15,6 @@
 #include <fmt/format.h>
 
 #include "core/compile/catalog_json.h"
-#include "core/report/pair_matrix.h"
 #include "core/report/table.h"
 #include "core/support/json_description.h"
 #include "core/support/wording.h"
@@ -255,119 +255,52 @@ std::vector<std::string> describe_gaps(const CompiledCatalog& catalog,
   return lines;
 }
 
-constexpr std::string_view column_gap = "  ";
+Table::Cell cell_of(Fit fit, const Style& style) {
+  return {std::string(1, sign_of(fit)), fit == Fit::in_any ? style.faint
+                                        : fit == Fit::fits ? style.good
+                                                           : style.bad};
+}
 
-/// The rows and columns as text, in as many parts as it takes for the columns to fit. A part has
-/// the rows of the behaviors that name one of its variables.
-class TextTable {
- public:
-  TextTable(const CompiledCatalog& catalog, const SituationTable& table, const Style& style)
-      : catalog_(catalog), table_(table), style_(style) {
-    for (const BehaviorId behavior : table.behaviors()) {
-      names_.push_back(draw::label_of(catalog.name_of_behavior(behavior)));
+/// The rows and columns. A variable stays in one part if it can, and its name above its first
+/// value.
+std::string matrix_of(const CompiledCatalog& catalog, const SituationTable& table,
+                      const Style& style) {
+  std::vector<std::string> variables;
+  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+    variables.push_back(draw::label_of(catalog.name_of_variable(variable)));
+  }
+  variables = shorten(std::move(variables));
+  std::vector<Table::Column> columns(1);
+  for (std::uint32_t variable = 0; variable < variables.size(); ++variable) {
+    std::vector<std::string> values;
+    for (const VariableValue value : table.values_of(variable)) {
+      values.push_back(draw::label_of(catalog.name_of_value(value)));
     }
-    names_ = shorten(std::move(names_));
-    for (const std::string& name : names_) left_ = std::max(left_, width_of(name));
-    left_ += column_gap.size();
-    for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
-      variables_.push_back(draw::label_of(catalog.name_of_variable(variable)));
-      std::vector<std::string>& titles = titles_.emplace_back();
-      for (std::uint32_t value = 0; value < catalog.variables[variable].value_count; ++value) {
-        titles.push_back(draw::label_of(catalog.name_of_value({variable, value})));
-      }
-      titles = shorten(std::move(titles));
+    values = shorten(std::move(values));
+    std::size_t width = 0;
+    for (std::size_t value = 0; value < values.size(); ++value) {
+      const std::string above = value == 0 ? variables[variable] : "";
+      columns.push_back({.title = above + "\n" + values[value], .belongs_to_last = value > 0});
+      width += columns.back().gap + width_of(values[value]);
     }
-    variables_ = shorten(std::move(variables_));
+    const std::size_t of_name = columns.back().gap + width_of(variables[variable]);
+    if (of_name > width) columns.back().width = width_of(values.back()) + of_name - width;
   }
-
-  std::string write() && {
-    std::size_t width = left_;
-    for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
-      const std::vector<VariableValue> values = table_.values_of(variable);
-      std::size_t together = 0;
-      for (const VariableValue value : values) {
-        together += column_gap.size() + width_of(title_of(value));
-      }
-      together = std::max(together, column_gap.size() + width_of(name_of(variable)));
-      // A variable stays in one part if it can.
-      if (width + together > text_width) flush(width);
-      for (const VariableValue value : values) {
-        std::size_t column = width_of(title_of(value));
-        if (width + column_gap.size() + column > text_width) flush(width);
-        // The name of the variable stands above its first value.
-        if (values_.empty() || values_.back().variable != variable) {
-          name_end_ = width + column_gap.size() + width_of(name_of(variable));
-        }
-        if (value == values.back() && width + column_gap.size() + column < name_end_) {
-          column = name_end_ - width - column_gap.size();
-        }
-        values_.push_back(value);
-        widths_.push_back(column);
-        width += column_gap.size() + column;
-      }
+  Table matrix(style, std::move(columns));
+  std::vector<std::string> names;
+  for (const BehaviorId behavior : table.behaviors()) {
+    names.push_back(draw::label_of(catalog.name_of_behavior(behavior)));
+  }
+  names = shorten(std::move(names));
+  for (std::size_t row = 0; row < names.size(); ++row) {
+    Table::Row cells = {names[row]};
+    for (const VariableValue value : table.values()) {
+      cells.push_back(cell_of(table.fit(table.behaviors()[row], value), style));
     }
-    flush(width);
-    return std::move(text_);
+    matrix.add(std::move(cells));
   }
-
- private:
-  [[nodiscard]] const std::string& name_of(std::uint32_t variable) const {
-    return variables_[variable];
-  }
-  [[nodiscard]] const std::string& title_of(VariableValue value) const {
-    return titles_[value.variable][value.value];
-  }
-
-  /// Writes the columns that have been collected.
-  void flush(std::size_t& width) {
-    if (!values_.empty()) add_part();
-    values_.clear();
-    widths_.clear();
-    width = left_;
-  }
-
-  void add_part() {
-    std::vector<Table::Column> columns = {{{}, {}, left_ - column_gap.size()}};
-    Table::Row variables = {""};
-    Table::Row titles = {""};
-    for (std::size_t column = 0; column < values_.size(); ++column) {
-      const VariableValue value = values_[column];
-      const bool is_first = column == 0 || values_[column - 1].variable != value.variable;
-      columns.push_back({{}, {}, widths_[column]});
-      variables.emplace_back(is_first ? name_of(value.variable) : std::string());
-      titles.emplace_back(title_of(value));
-    }
-    const Table table(style_, std::move(columns));
-    text_ += "\n" + table.line(variables, style_.strong) + table.line(titles, style_.faint);
-    for (std::size_t row = 0; row < names_.size(); ++row) {
-      Table::Row cells = {names_[row]};
-      bool names_any = false;
-      for (const VariableValue value : values_) {
-        const Fit fit = table_.fit(table_.behaviors()[row], value);
-        names_any = names_any || fit != Fit::in_any;
-        cells.emplace_back(std::string(1, sign_of(fit)), color_of(fit));
-      }
-      if (names_any) text_ += table.line(cells);
-    }
-  }
-
-  [[nodiscard]] std::string_view color_of(Fit fit) const {
-    if (fit == Fit::in_any) return style_.faint;
-    return fit == Fit::fits ? style_.good : style_.bad;
-  }
-
-  const CompiledCatalog& catalog_;
-  const SituationTable& table_;
-  const Style& style_;
-  std::vector<std::string> names_;
-  std::vector<std::string> variables_;            ///< their names
-  std::vector<std::vector<std::string>> titles_;  ///< of their values
-  std::size_t left_ = 0;                          ///< width of the names
-  std::vector<VariableValue> values_;
-  std::vector<std::size_t> widths_;
-  std::size_t name_end_ = 0;
-  std::string text_;
-};
+  return matrix.text_in_parts(1, std::string(1, sign_of(Fit::in_any)));
+}
 
 }  // namespace
 
@@ -377,7 +310,7 @@ std::string situation_text(const CompiledCatalog& catalog, const Style& style) {
   text += "  " + describe_size(catalog, table) + "\n";
   if (table.behaviors().empty()) return text;
   for (const std::string_view line : legend) text += fmt::format("    {}\n", line);
-  text += TextTable(catalog, table, style).write();
+  text += matrix_of(catalog, table, style);
   const std::vector<std::string> gaps = describe_gaps(catalog, table);
   if (gaps.empty()) return text;
   text += fmt::format("\n{}\n", style.paint(style.strong, "tasks without a behavior that fits"));
@@ -425,10 +358,8 @@ constexpr auto report = object(
                .on_lines(),
            "The situation variables, in catalog order.",
            [](const SituationTable& of) {
-             return [&of](const auto& put) {
-               const std::size_t size = of.catalog().variables.size();
-               for (std::uint32_t place = 0; place < size; ++place) put(place);
-             };
+             const auto variables = static_cast<std::uint32_t>(of.catalog().variables.size());
+             return std::views::iota(0U, variables);
            }),
     member("behaviors",
            list(object("behavior", "", member("behavior", behavior, "", std::identity()),

@@ -87,10 +87,7 @@ void add_unused(std::string_view what, const std::vector<std::string>& names, Co
   }
   text.line("{}: {} of {}", text.style().paint(text.style().strong, what), unused.size(),
             names.size());
-  for (std::size_t place = 0; place < std::min(unused.size(), most_named); ++place) {
-    text.line("  " + unused[place]);
-  }
-  if (unused.size() > most_named) text.line("  and {} more", unused.size() - most_named);
+  text.list(unused, most_named);
 }
 
 void add_reasons(const SweepResult& result, Text& text) {

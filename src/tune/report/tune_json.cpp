@@ -1,3 +1,5 @@
+#include <ranges>
+
 #include "core/compile/catalog_json.h"
 #include "core/support/json_description.h"
 #include "core/words/words.h"
@@ -175,11 +177,7 @@ constexpr auto report = object(
              &TuneResult::states)
         .on_line(),
     member("numbers", list(number).on_lines(), "In the order of the file.",
-           [](const TuneResult& of) {
-             return [&of](const auto& put) {
-               for (std::size_t place = 0; place < of.numbers.size(); ++place) put(place);
-             };
-           })
+           [](const TuneResult& of) { return std::views::iota(std::size_t{0}, of.numbers.size()); })
         .on_line(),
     member(
         "expectations",

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "ask/together.h"
-#include "core/report/pair_matrix.h"
 #include "core/report/table.h"
 #include "core/support/wording.h"
 #include "core/words/words.h"
