@@ -145,8 +145,7 @@ void add_coverage(const Coverage& coverage, Text& text) {
   for (const CatalogCoverage& catalog : coverage.catalogs) {
     add_counts(catalog, text);
     add_first_goals(catalog, text);
-    add_list(catalog,
-             is_long(catalog) ? "all that no mission shows" : "coverage: no mission shows that",
+    add_list(catalog, is_long(catalog) ? "all that no mission shows" : "no mission shows that",
              &CatalogCoverage::is_missed, text);
     add_list(catalog, "under these assumptions no mission can show, and so it does not count, that",
              &CatalogCoverage::is_unreachable, text);
