@@ -29,6 +29,15 @@ namespace cbc::json {
 /// For documents that need nothing but what they describe.
 struct NoContext {};
 
+/// The places of a list whose items are described by their place. (Clang 14 cannot compile
+/// std::views::iota of GCC 12.)
+template <typename Place>
+constexpr auto places_below(Place end) {
+  return [end](const auto& put) {
+    for (Place place = 0; place < end; ++place) put(place);
+  };
+}
+
 // Members.
 
 template <typename Value>

@@ -2,7 +2,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <ranges>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -151,9 +150,7 @@ constexpr auto catalog = object(
            })
         .on_line(),
     member("goals", list(goal).on_lines(), "All goals: by section, and in it in catalog order.",
-           [](const CatalogCoverage& of) {
-             return std::views::iota(std::size_t{0}, of.goals().size());
-           })
+           [](const CatalogCoverage& of) { return places_below(of.goals().size()); })
         .on_line());
 
 constexpr auto report =

@@ -1,6 +1,5 @@
 #include <cstddef>
 #include <cstdint>
-#include <ranges>
 #include <string>
 #include <string_view>
 
@@ -303,9 +302,8 @@ constexpr auto report = object(
            &MutantsResult::assumptions)
         .on_line(),
     part(&MutantsResult::count, counts),
-    member(
-        "mutants", list(mutant).on_lines(), "All mutants, by line.",
-        [](const MutantsResult& of) { return std::views::iota(std::size_t{0}, of.mutants.size()); })
+    member("mutants", list(mutant).on_lines(), "All mutants, by line.",
+           [](const MutantsResult& of) { return places_below(of.mutants.size()); })
         .on_line());
 
 }  // namespace json::mutants

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
-#include <ranges>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -358,8 +357,7 @@ constexpr auto report = object(
                .on_lines(),
            "The situation variables, in catalog order.",
            [](const SituationTable& of) {
-             const auto variables = static_cast<std::uint32_t>(of.catalog().variables.size());
-             return std::views::iota(0U, variables);
+             return places_below(static_cast<std::uint32_t>(of.catalog().variables.size()));
            }),
     member("behaviors",
            list(object("behavior", "", member("behavior", behavior, "", std::identity()),

@@ -1,5 +1,3 @@
-#include <ranges>
-
 #include "core/compile/catalog_json.h"
 #include "core/support/json_description.h"
 #include "core/words/words.h"
@@ -177,7 +175,7 @@ constexpr auto report = object(
              &TuneResult::states)
         .on_line(),
     member("numbers", list(number).on_lines(), "In the order of the file.",
-           [](const TuneResult& of) { return std::views::iota(std::size_t{0}, of.numbers.size()); })
+           [](const TuneResult& of) { return places_below(of.numbers.size()); })
         .on_line(),
     member(
         "expectations",
