@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <csignal>
-#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <unistd.h>
 #include <vector>
@@ -14,7 +12,7 @@
 #include "commands.h"
 #include "core/command_line/command_line.h"
 #include "core/files/output.h"
-#include "runtime/base/text.h"
+#include "core/files/signals.h"
 
 namespace {
 

@@ -40,7 +40,8 @@ using Asked = std::vector<GroupDemands>;
 /// Demands that no task runs with a behavior.
 void add_fault(const CompiledCatalog& catalog, BehaviorId behavior, Demands& demands);
 
-/// Looks for a situation in which some search succeeds.
+/// Looks for a situation in which some search succeeds. It splits the situations by conditions of
+/// behaviors, as there may be too many to go through them one by one.
 class SituationSplits {
  public:
   /// The space must outlive this object.
@@ -105,12 +106,12 @@ class Ask {
 /// Constraints that are examined for one proof; among more it would take too long.
 inline constexpr std::size_t most_constraints = 20'000;
 
-/// Those that bear on some tasks and on what performs them. If there are more than
+/// The constraints that bear on some tasks and on what performs them. If there are more than
 /// `most_constraints`, some are left out.
 [[nodiscard]] std::vector<Reason> constraints_on(const CompiledCatalog& catalog,
                                                  const RelevantTasks& relevant);
-/// Those that bear on a question. `with_conditions`: conditions of behaviors, too, one for each
-/// variable that a behavior names: of the kind `situation`, without a value.
+/// The constraints that bear on a question. `with_conditions`: conditions of behaviors, too, one
+/// for each variable that a behavior names: of the kind `situation`, without a value.
 [[nodiscard]] std::vector<Reason> constraints_on(const CompiledCatalog& catalog,
                                                  const Asked& question, bool with_conditions);
 

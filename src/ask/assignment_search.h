@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -69,8 +68,8 @@ class AssignmentSearch {
     Feasibility exists = Feasibility::no;  ///< whether the task can run at all
     std::vector<Millionths> factors;       ///< suitabilities of which it is the product
   };
-  /// Of all assignments in which the task runs. `ignore_minimum`: the task's own minimum
-  /// performance does not count.
+  /// The best one of all assignments in which the task runs. `ignore_minimum`: the task's own
+  /// minimum performance does not count.
   [[nodiscard]] Best best_performance(TaskId task, bool ignore_minimum);
 
  private:

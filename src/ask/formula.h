@@ -5,7 +5,6 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "ask/ask.h"
@@ -13,7 +12,8 @@
 // What a state may satisfy, as far as the constraints say something about it: which task runs with
 // which behavior, the situation, and what is faulty. A state has an assignment that satisfies all
 // constraints, with behaviors that fit in its situation. Own(b) and faults do not end a behavior
-// that is active.
+// that is active. What no such state satisfies is proven for all reachable states, without
+// exploring them.
 
 namespace cbc {
 

@@ -14,7 +14,8 @@ namespace cbc {
 
 class DirectAssignment;
 
-/// Which values, behaviors and tasks occur in no assignment that satisfies all constraints.
+/// Which values, behaviors and tasks occur in no assignment that satisfies all constraints: dead
+/// ones are reported, and other proofs need not try them.
 class Liveness {
  public:
   enum class State : std::uint8_t { live, dead, undecided };

@@ -70,7 +70,7 @@ inline constexpr std::size_t most_tasks_in_pairs = 2'000;
 /// The number of the tasks that the table would be about, those that never run included.
 [[nodiscard]] std::size_t count_tasks_in_pairs(const CompiledCatalog& catalog);
 
-/// Of a catalog with at most `most_tasks_in_pairs` of these tasks.
+/// The table of a catalog with at most `most_tasks_in_pairs` of these tasks.
 [[nodiscard]] TogetherTable make_together_table(const CompiledCatalog& catalog,
                                                 const TogetherOptions& options);
 

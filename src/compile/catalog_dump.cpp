@@ -1,6 +1,5 @@
 #include "compile/catalog_dump.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,6 +10,7 @@
 #include "core/command_line/limits.h"
 #include "core/files/missions.h"
 #include "core/files/output.h"
+#include "core/files/signals.h"
 #include "core/property/properties.h"
 #include "core/support/budget.h"
 #include "coverage/engine/goal_monitor.h"

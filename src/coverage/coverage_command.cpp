@@ -4,8 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/core.h>
-
 #include "commands.h"
 #include "core/command_line/command_line.h"
 #include "core/files/missions.h"

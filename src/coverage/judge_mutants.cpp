@@ -4,7 +4,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <fmt/core.h>
@@ -12,6 +11,8 @@
 #include "core/command_line/command_line.h"
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
+#include "core/files/progress.h"
+#include "core/files/signals.h"
 #include "core/script/script.h"
 #include "core/yaml/source.h"
 #include "coverage/coverage.h"

@@ -13,6 +13,8 @@
 #include "core/files/file_set.h"
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
+#include "core/files/progress.h"
+#include "core/files/signals.h"
 #include "coverage/coverage.h"
 #include "coverage/engine/coverage.h"
 #include "coverage/engine/goal_proof.h"

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -17,7 +16,7 @@
 #include "ask/together.h"
 #include "commands.h"
 #include "core/check/check.h"
-#include "core/check/controls.h"
+#include "core/check/severity_settings.h"
 #include "core/command_line/command_line.h"
 #include "core/files/file_set.h"
 #include "core/files/missions.h"

@@ -15,6 +15,7 @@
 #include "core/diagnostic/rules.h"
 #include "core/files/file_search.h"
 #include "core/files/output.h"
+#include "core/files/progress.h"
 #include "core/files/read.h"
 #include "core/support/wording.h"
 #include "lint/linter.h"

@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 
 #include "core/catalog/older_format.h"
-#include "core/check/controls.h"
+#include "core/check/severity_settings.h"
 #include "core/command_line/command_line.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/files/check_file.h"

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "cbc/version.h"
-#include "core/files/read.h"
 #include "core/support/wording.h"
 #include "lsp/protocol/uri.h"
 

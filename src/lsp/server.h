@@ -45,7 +45,7 @@ class Server {
   struct End {};
   using Item = std::variant<Json, Proved, Ran, End>;
   using Clock = std::chrono::steady_clock;
-  using Answer = std::function<Json(const Json& params)>;
+  using Handler = std::function<Json(const Json& params)>;
   using Take = std::function<void(const Json& params)>;
 
   void add_requests();
@@ -83,7 +83,7 @@ class Server {
   MessageWriter output_;
   std::shared_ptr<Inbox<Item>> inbox_ =
       std::make_shared<Inbox<Item>>();  ///< threads may outlive this
-  std::map<std::string, Answer> requests_;
+  std::map<std::string, Handler> requests_;
   std::map<std::string, Take> notifications_;
   std::unique_ptr<Workspace> workspace_;  ///< null: not initialized
   std::unique_ptr<Proofs> proofs_;

@@ -21,7 +21,7 @@ std::optional<std::string> read_text(const std::string& path) {
 
 }  // namespace
 
-serve::Answer refusal(const char* status, std::string_view error) {
+serve::Reply refusal(const char* status, std::string_view error) {
   std::string json;
   JsonWriter(json).write_object({{"error", error}});
   return {status, std::move(json)};
@@ -46,7 +46,7 @@ void EditedFile::look() {
   if (now) text_ = std::move(*now);
 }
 
-serve::Answer EditedFile::replace(std::uint64_t version, std::string_view text) {
+serve::Reply EditedFile::replace(std::uint64_t version, std::string_view text) {
   if (const auto obstacle = find_obstacle(text)) {
     return refusal("422 Unprocessable Entity", *obstacle);
   }

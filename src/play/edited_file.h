@@ -30,7 +30,7 @@ class EditedFile {
   /// Writes a text in place of a version. The answer has the new version; or, with status 409, the
   /// version and the text that are there instead (null: it cannot be read), and nothing was
   /// written; or what is wrong.
-  [[nodiscard]] serve::Answer replace(std::uint64_t version, std::string_view text);
+  [[nodiscard]] serve::Reply replace(std::uint64_t version, std::string_view text);
 
  private:
   const std::string path_;
@@ -40,6 +40,6 @@ class EditedFile {
 };
 
 /// An answer that says what is wrong with a request.
-[[nodiscard]] serve::Answer refusal(const char* status, std::string_view error);
+[[nodiscard]] serve::Reply refusal(const char* status, std::string_view error);
 
 }  // namespace cbc::cli

@@ -19,6 +19,7 @@
 #include "core/files/file_set.h"
 #include "core/files/output.h"
 #include "core/files/read.h"
+#include "core/files/signals.h"
 #include "core/support/json.h"
 #include "page/serve/server.h"
 #include "page/simulator.h"
@@ -163,8 +164,8 @@ std::optional<std::uint64_t> version_in(std::string_view query) {
 }
 
 /// Takes a text that the page saves. A page always knows a version; none is 0.
-serve::Answer save(EditedFiles& files, std::string_view role, std::string_view query,
-                   std::string_view text) {
+serve::Reply save(EditedFiles& files, std::string_view role, std::string_view query,
+                  std::string_view text) {
   const auto file = files.find(role);
   if (file == files.end()) return refusal("404 Not Found", "there is no such file");
   return file->second.replace(version_in(query).value_or(0), text);

@@ -14,6 +14,7 @@
 #include "core/files/missions.h"
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
+#include "core/files/progress.h"
 #include "core/files/read.h"
 #include "core/report/run_report.h"
 #include "core/script/runner.h"

@@ -16,6 +16,7 @@
 #include "core/files/missions.h"
 #include "core/files/output.h"
 #include "core/files/read.h"
+#include "core/files/signals.h"
 #include "core/report/event_json.h"
 #include "core/script/event_lines.h"
 #include "core/script/reader.h"

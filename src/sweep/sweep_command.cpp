@@ -15,6 +15,7 @@
 #include "core/files/file_set.h"
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
+#include "core/files/progress.h"
 #include "runtime/base/text.h"
 #include "sweep/engine/sweep.h"
 #include "sweep/report/sweep_report.h"

@@ -1,6 +1,4 @@
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "commands.h"
 #include "core/command_line/command_line.h"

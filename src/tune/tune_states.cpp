@@ -1,15 +1,12 @@
 // Tolerances over all decisions of all reachable states.
 
 #include <string>
-#include <utility>
-
-#include <fmt/core.h>
 
 #include "core/command_line/command_line.h"
 #include "core/files/output.h"
+#include "core/files/progress.h"
 #include "core/files/question_loader.h"
 #include "core/property/properties.h"
-#include "core/support/wording.h"
 #include "runtime/base/text.h"
 #include "tune/engine/state_tuner.h"
 #include "tune/tune_steps.h"
@@ -39,21 +36,21 @@ StateTuner explore_present(const CheckedCatalog& source, const std::vector<Tunab
 int tune_states(const TuneOptions& options) {
   if (options.paths.empty()) return usage_error("tune", "expected a catalog or a property file");
   QuestionLoader loader;
-  const std::optional<Questions> questions = loader.load(options.paths, {});
-  if (!questions) return report_unreadable("cbc tune", options.format, "-", loader.findings());
-  if (questions->files.size() > 1) {
+  const std::optional<CheckedInput> input = loader.load(options.paths, {});
+  if (!input) return report_unreadable("cbc tune", options.format, "-", loader.findings());
+  if (input->files.size() > 1) {
     return usage_error("tune", "--all-states takes at most one property file, found {}",
-                       questions->files.size());
+                       input->files.size());
   }
-  const CheckedCatalog& source = *questions->catalog;
+  const CheckedCatalog& source = *input->catalog;
   if (!has_numbers(source)) return exit_unusable;
   const auto numbers = choose_numbers(source.reading, options.only);
   if (!numbers || (options.html && !can_write_output(*options.html))) return exit_unusable;
   PropertyFile file;
-  if (questions->files.empty()) {
+  if (input->files.empty()) {
     file.assumptions = default_assumptions(*source.compiled);
   } else {
-    file = *questions->files.front();
+    file = *input->files.front();
   }
   const StateTuner tuner = explore_present(source, *numbers, file, options);
   const StateSurvey& survey = tuner.present();

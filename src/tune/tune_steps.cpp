@@ -1,10 +1,7 @@
 #include "tune/tune_steps.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <string_view>
-
-#include <fmt/core.h>
 
 #include "core/files/output.h"
 #include "core/support/wording.h"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "core/diagnostic/diagnostic.h"
 #include "core/files/file_set.h"
 #include "core/files/ordered_work.h"
+#include "core/files/progress.h"
 #include "tune/engine/numbers.h"
 #include "tune/report/tune_report.h"
 #include "tune/tune.h"

@@ -1,6 +1,5 @@
 #include "verify/found_scripts.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
@@ -126,7 +125,7 @@ int replay_answers(const VerifyOptions& options, VerifyResult& result) {
   const Style style = style_of_replays(options);
   std::set<std::string> taken;
   for (VerifyPart& part : result.parts) {
-    for (Answer& answer : part.verification.answers) {
+    for (PropertyAnswer& answer : part.verification.answers) {
       ReportedAnswer& reported = part.answers.emplace_back();
       reported.answer = &answer;
       if (!answer.witness) continue;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -14,7 +13,9 @@
 #include "core/command_line/command_line.h"
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
+#include "core/files/progress.h"
 #include "core/files/question_loader.h"
+#include "core/files/signals.h"
 #include "core/property/properties.h"
 #include "core/support/wording.h"
 #include "core/words/words.h"
@@ -44,12 +45,10 @@ int prepare_outputs(const VerifyOptions& options) {
 /// One call of the command, after its input was read.
 class Call {
  public:
-  Call(const VerifyOptions& options, Questions questions)
-      : options_(options),
-        questions_(std::move(questions)),
-        catalog_(*questions_.catalog->compiled) {
-    result_.catalog = questions_.catalog->compiled;
-    result_.text = questions_.catalog->text;
+  Call(const VerifyOptions& options, CheckedInput input)
+      : options_(options), input_(std::move(input)), catalog_(*input_.catalog->compiled) {
+    result_.catalog = input_.catalog->compiled;
+    result_.text = input_.catalog->text;
     result_.limits = options.limits.budget();
     result_.limits.is_stopped = [this] { return signals_.have_come(); };
   }
@@ -80,18 +79,18 @@ class Call {
   /// file, if there is one.
   int add_refused() {
     if (options_.refused.empty()) return exit_ok;
-    if (questions_.files.size() > 1) {
+    if (input_.files.size() > 1) {
       return usage_error("verify", "--refused takes at most one property file, found {}",
-                         questions_.files.size());
+                         input_.files.size());
     }
     const auto tasks = find_tasks(catalog_, "--refused", options_.refused);
     if (!tasks) return exit_unusable;
     PropertyFile file;
-    if (questions_.files.empty()) {
+    if (input_.files.empty()) {
       file.assumptions = default_assumptions(catalog_);
     } else {
-      file = *questions_.files.front();
-      questions_.files.clear();
+      file = *input_.files.front();
+      input_.files.clear();
     }
     if (file.path.empty()) file.path = "refused";
     for (const TaskId task : *tasks) {
@@ -100,13 +99,13 @@ class Call {
       property.line = file.properties.size();  // there is none
       property.task = task;
     }
-    questions_.files.push_back(std::make_unique<const PropertyFile>(std::move(file)));
+    input_.files.push_back(std::make_unique<const PropertyFile>(std::move(file)));
     return exit_ok;
   }
 
   /// Only what property files assume counts.
   void leave_out_properties() {
-    for (auto& file : questions_.files) {
+    for (auto& file : input_.files) {
       PropertyFile without = *file;
       without.properties.clear();
       file = std::make_unique<const PropertyFile>(std::move(without));
@@ -119,9 +118,9 @@ class Call {
     if (options_.outcomes) leave_out_properties();
     const VerifyFormat& format = *find_named(verify_formats(), options_.format);
     const bool has_properties =
-        std::all_of(questions_.files.begin(), questions_.files.end(),
+        std::all_of(input_.files.begin(), input_.files.end(),
                     [](const auto& file) { return !file->properties.empty(); }) &&
-        !questions_.files.empty();
+        !input_.files.empty();
     const char* const needs_properties = format.needs_tests && !options_.same_as   ? "--format"
                                          : options_.scripts && !finds_scripts()    ? "--scripts"
                                          : options_.html && !asks_only_otherwise() ? "--html"
@@ -139,9 +138,9 @@ class Call {
                                        : options_.outcomes  ? "--outcomes"
                                        : options_.same_as   ? "--same-as"
                                                             : nullptr;
-    if (takes_one_file != nullptr && questions_.files.size() > 1) {
+    if (takes_one_file != nullptr && input_.files.size() > 1) {
       return usage_error("verify", "{} takes at most one property file, found {}", takes_one_file,
-                         questions_.files.size());
+                         input_.files.size());
     }
     const auto tasks = find_tasks(catalog_, "--cut-sets", options_.cut_sets);
     if (!tasks) return exit_unusable;
@@ -157,8 +156,8 @@ class Call {
       const std::string fault = add_to_situation(catalog_, entry, result_.situation);
       if (!fault.empty()) return complain("--situation: " + fault);
     }
-    if (questions_.files.size() != 1) return exit_ok;
-    const PropertyFile& file = *questions_.files.front();
+    if (input_.files.size() != 1) return exit_ok;
+    const PropertyFile& file = *input_.files.front();
     if (options_.situation.empty()) result_.situation = file.assumptions.initially;
     result_.never = file.assumptions.never;
     if (asks_only_otherwise()) return check_situation(file);
@@ -197,9 +196,8 @@ class Call {
 
   /// The tasks that the assumptions let be requested, in catalog order.
   [[nodiscard]] std::vector<TaskId> requestable_tasks() const {
-    const Assumptions assumptions = questions_.files.empty()
-                                        ? default_assumptions(catalog_)
-                                        : questions_.files.front()->assumptions;
+    const Assumptions assumptions =
+        input_.files.empty() ? default_assumptions(catalog_) : input_.files.front()->assumptions;
     std::vector<TaskId> tasks;
     for (const Assumptions::Start& start : assumptions.start) tasks.push_back(start.task);
     return tasks;
@@ -208,14 +206,14 @@ class Call {
   int read_renames() {
     if (options_.renamed.empty()) return exit_ok;
     const std::string fault =
-        add_renames(*questions_.old_catalog, catalog_, options_.renamed, comparison_.renames);
+        add_renames(*input_.old_catalog, catalog_, options_.renamed, comparison_.renames);
     return fault.empty() ? exit_ok : usage_error("verify", "--renamed: {}", fault);
   }
 
   [[nodiscard]] std::size_t count_explorations() const {
-    if (questions_.files.empty()) return catalog_.group_count();
+    if (input_.files.empty()) return catalog_.group_count();
     std::size_t count = 0;
-    for (const auto& file : questions_.files) {
+    for (const auto& file : input_.files) {
       std::set<PropertyScope> explored;
       for (const Property& property : file->properties) {
         explored.insert(scope_of(catalog_, property));
@@ -228,7 +226,7 @@ class Call {
   void explore() {
     if (asks_only_otherwise()) return;
     const bool asks_otherwise = wants_cut_sets() || options_.same_as;
-    if (questions_.files.empty() && asks_otherwise) return;
+    if (input_.files.empty() && asks_otherwise) return;
     Progress progress("exploring", count_explorations());
     ExplorationOptions of_verification;
     of_verification.budget = result_.limits;
@@ -236,10 +234,10 @@ class Call {
     of_verification.jobs = thread_count(options_.jobs);
     of_verification.reduce = true;
     of_verification.outcomes = options_.outcomes;
-    if (questions_.files.empty()) {
+    if (input_.files.empty()) {
       result_.parts.push_back({nullptr, verify_groups(catalog_, of_verification), {}});
     }
-    for (auto& file : questions_.files) {
+    for (auto& file : input_.files) {
       Verification verification = verify_properties(catalog_, *file, of_verification);
       result_.parts.push_back({std::move(file), std::move(verification), {}});
     }
@@ -247,8 +245,8 @@ class Call {
 
   /// Compares with the older catalog, under the assumptions of the property file if there is one.
   int compare() {
-    if (questions_.old_catalog == nullptr) return exit_ok;
-    const CompiledCatalog& old_catalog = *questions_.old_catalog;
+    if (input_.old_catalog == nullptr) return exit_ok;
+    const CompiledCatalog& old_catalog = *input_.old_catalog;
     Progress progress("comparing", catalog_.group_count());
     ExplorationOptions of_comparison;
     of_comparison.budget = result_.limits;
@@ -257,7 +255,7 @@ class Call {
     comparison_.is_by_default = result_.parts.empty();
     comparison_.allow_missing = options_.allow_missing;
     ReportedComparison& reported = result_.same_as.emplace();
-    reported.old_catalog = questions_.old_catalog;
+    reported.old_catalog = input_.old_catalog;
     reported.assumptions = result_.parts.empty()
                                ? common_assumptions(old_catalog, catalog_, comparison_.renames)
                                : result_.parts.front().file->assumptions;
@@ -363,7 +361,7 @@ class Call {
   }
 
   const VerifyOptions& options_;
-  Questions questions_;
+  CheckedInput input_;
   const CompiledCatalog& catalog_;
   StopSignals signals_;
   VerifyResult result_;
@@ -375,11 +373,11 @@ class Call {
 
 int verify(const VerifyOptions& options) {
   QuestionLoader loader;
-  std::optional<Questions> questions = loader.load(options.paths, options.same_as);
-  if (!questions) {
+  std::optional<CheckedInput> input = loader.load(options.paths, options.same_as);
+  if (!input) {
     return report_unreadable("cbc verify", options.format, options.output, loader.findings());
   }
-  return Call(options, std::move(*questions)).run();
+  return Call(options, std::move(*input)).run();
 }
 
 }  // namespace cbc::cli

@@ -10,7 +10,6 @@
 #include "core/files/check_file.h"
 #include "core/files/file_set.h"
 #include "core/script/reader.h"
-#include "core/words/words.h"
 #include "lint/report/lint_report.h"
 #include "page/html_report.h"
 #include "runtime/base/text.h"

@@ -10,7 +10,6 @@
 
 #include "cbc/units.h"
 #include "core/check/check.h"
-#include "core/check/controls.h"
 #include "core/report/event_json.h"
 #include "core/script/event_lines.h"
 #include "core/script/repetition.h"

@@ -15,8 +15,8 @@
 
 namespace cbc {
 
-/// Of all searches about one event: decisions (each search counts as one more), times tasks; some
-/// tenths of a second.
+/// The effort of all searches about one event: decisions (each search counts as one more), times
+/// tasks; some tenths of a second.
 inline constexpr std::uint64_t most_effort_of_answer = 50'000'000;
 
 /// Whether a demand says that the task runs.
@@ -30,7 +30,7 @@ inline constexpr std::uint64_t most_effort_of_answer = 50'000'000;
 /// many conflicts, or the deadline).
 [[nodiscard]] std::vector<Reason> find_conflict(const CompiledCatalog& catalog,
                                                 const Circumstances& circumstances);
-/// The same of an event that was rejected: nothing if only a limit ended its search.
+/// Why an event was rejected; nothing if only a limit ended its search.
 [[nodiscard]] std::vector<Reason> find_conflict(const CompiledCatalog& catalog,
                                                 const EventRecord& record,
                                                 const Circumstances& circumstances);
@@ -45,7 +45,7 @@ inline constexpr std::uint64_t most_effort_of_answer = 50'000'000;
 /// Why a behavior is not available: it does not fit, or a script denied it, or both.
 [[nodiscard]] Reason reason_of_unavailability(const CompiledCatalog& catalog, const State& state,
                                               BehaviorId behavior);
-/// The same of all behaviors of a task.
+/// Why each behavior of a task is not available.
 [[nodiscard]] std::vector<Reason> reasons_of_unavailability(const CompiledCatalog& catalog,
                                                             const State& state, TaskId task);
 

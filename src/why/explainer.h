@@ -32,7 +32,7 @@ class Explainer {
   [[nodiscard]] WhyNot ask(const Circumstances& circumstances, const Assignment& solution,
                            std::span<const Demands> ways, Configuration& chosen);
 
-  /// Of tasks that do not run, but are in the queue after the event, and of their behaviors:
+  /// For tasks that do not run, but are in the queue after the event, and for their behaviors:
   /// replaces the explanation by what hinders their start, if anything does. `state`: after the
   /// event.
   void explain_queued(const State& state, Explanation& explanation) const;

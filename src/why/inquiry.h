@@ -25,7 +25,7 @@ class Inquiry {
 
   void on_decision(const EventRecord& record, const Circumstances& circumstances,
                    const Assignment* solution);
-  /// The same event with the answers, valid until the next one. `state`: after the event.
+  /// The event with the answers, valid until the next one. `state`: after the event.
   [[nodiscard]] const ExplainedRecord& on_event(const EventRecord& record, const State& state);
 
   /// Whether the questions include those that come later.

@@ -1,6 +1,5 @@
 #include "why/moment.h"
 
-#include <optional>
 #include <string_view>
 
 namespace cbc {

@@ -1,6 +1,5 @@
 #include "bench/inputs.h"
 
-#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <utility>

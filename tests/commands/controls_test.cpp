@@ -48,13 +48,13 @@ class ForgettingSystem final : public ControlSystem {
   [[nodiscard]] std::vector<std::uint8_t> first_environment() const override { return {0, 0}; }
   void load(const std::uint32_t* /*control*/) override {}
   [[nodiscard]] bool may_have(std::uint32_t /*action*/) const override { return true; }
-  [[nodiscard]] Outcome take(std::uint32_t /*action*/, SystemOracle& oracle) override {
+  [[nodiscard]] MoveResult take(std::uint32_t /*action*/, SystemOracle& oracle) override {
     if (!was_set_) was_set_ = oracle.is_in(sets_.with(0, true));
     after_ = oracle.is_in(sets_.with(1, true)) ? 1 : 0;
     return {&after_};
   }
-  [[nodiscard]] Outcome take_fault() override { return {}; }
-  [[nodiscard]] Outcome take_repair(std::uint32_t /*kind*/) override { return {}; }
+  [[nodiscard]] MoveResult take_fault() override { return {}; }
+  [[nodiscard]] MoveResult take_repair(std::uint32_t /*kind*/) override { return {}; }
 
  private:
   const std::vector<std::uint32_t> first_ = {0};
@@ -62,7 +62,7 @@ class ForgettingSystem final : public ControlSystem {
   bool was_set_ = false;
 };
 
-/// What a move asks may depend on what it asked before: the outcome is filed under all of that.
+/// What a move asks may depend on what it asked before: the result is filed under all of that.
 TEST(Controls, AreRightAlsoIfAMoveAsksLessThanBefore) {
   using Environment = std::vector<std::uint8_t>;
   const std::vector<Environment> environments = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
@@ -71,7 +71,7 @@ TEST(Controls, AreRightAlsoIfAMoveAsksLessThanBefore) {
   controls.load(controls.find(system.first_control().data()));
   for (int round = 0; round < 2; ++round) {
     for (const Environment& environment : environments) {
-      EXPECT_EQ(*controls.packed(controls.outcome_in(0, environment).control), environment[1]);
+      EXPECT_EQ(*controls.packed(controls.result_in(0, environment).control), environment[1]);
     }
   }
 }

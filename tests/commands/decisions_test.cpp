@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -24,7 +23,7 @@ using test::Random;
 
 using Answer = std::optional<std::vector<Word>>;
 
-Answer answer_of(Decisions& decisions, const Question& question, const Model& model) {
+Answer answer_of(Decisions& decisions, const GroupQuestion& question, const Model& model) {
   const Word* const values = decisions.find(question);
   if (values == nullptr) return std::nullopt;
   return std::vector<Word>(values, values + words_for(model.value_count()));
@@ -57,7 +56,7 @@ struct RandomQuestion {
     }
   }
 
-  [[nodiscard]] const Question& ask() {
+  [[nodiscard]] const GroupQuestion& ask() {
     question.domains = domains.data();
     question.must_run = must_run.data();
     question.present = present.data();
@@ -69,7 +68,7 @@ struct RandomQuestion {
   std::vector<Word> must_run;
   std::vector<Word> present;
   std::vector<std::uint16_t> requests;
-  Question question;
+  GroupQuestion question;
 };
 
 /// Asks questions again and again, with their requests in several orders. `most_bytes`: of the

@@ -1,5 +1,4 @@
 // Why no mission can meet a goal: a catalog for each reason.
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>

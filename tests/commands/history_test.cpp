@@ -1,7 +1,6 @@
 #include "page/serve/history.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <thread>
 #include <vector>

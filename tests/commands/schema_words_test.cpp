@@ -2,14 +2,13 @@
 #include <filesystem>
 #include <set>
 #include <string>
-#include <string_view>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "cbc/event.h"
 #include "core/catalog/shape.h"
-#include "core/check/controls.h"
+#include "core/check/severity_settings.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/diagnostic/rules.h"
 #include "core/property/property_reader.h"

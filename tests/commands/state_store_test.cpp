@@ -1,6 +1,5 @@
 #include "explore/sets/state_store.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -5,7 +5,6 @@
 #include <map>
 #include <string_view>
 #include <tuple>
-#include <utility>
 
 #include "core/catalog/reader.h"
 #include "core/compile/compile.h"

@@ -2,9 +2,9 @@
 
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 #include "core/catalog/older_format.h"
+#include "core/check/allow_comments.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/yaml/document.h"
 #include "fuzz/target.h"

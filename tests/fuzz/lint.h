@@ -6,7 +6,7 @@
 
 #include "core/catalog/catalog.h"
 #include "core/check/check.h"
-#include "core/check/controls.h"
+#include "core/check/severity_settings.h"
 #include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc::fuzz {

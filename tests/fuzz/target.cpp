@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <set>
 #include <unistd.h>
-#include <utility>
 
 #include <fmt/core.h>
 

@@ -1,7 +1,6 @@
 #include "fuzz/tree.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <iterator>
 #include <utility>

@@ -4,7 +4,6 @@
 #include <set>
 #include <string>
 #include <sys/stat.h>
-#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,6 @@
 // Reasons are told alike by all formats.
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 // `cbc rename`, which writes files in place.
 #include <algorithm>
-#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <string>

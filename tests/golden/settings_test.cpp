@@ -1,7 +1,6 @@
 // What settings and comments make of a catalog holds for all commands: one that lint refuses is
 // neither compiled nor solved.
 #include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 

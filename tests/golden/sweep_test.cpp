@@ -1,5 +1,4 @@
 // `cbc sweep` from outside: what it writes can be used as the manual says.
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -228,8 +228,8 @@ void compare_with_enumeration(const VerifyCase& sample, const Property& property
 }
 
 /// What is proved is so in all reachable states, and vacuous if that says nothing.
-void compare_with_states(const VerifyCase& sample, const Property& property, const Answer& answer,
-                         oracle::Statistics& statistics) {
+void compare_with_states(const VerifyCase& sample, const Property& property,
+                         const PropertyAnswer& answer, oracle::Statistics& statistics) {
   const std::vector<GroupId> groups = scope_of(sample.catalog, property).groups;
   const Exploration expected = explore_plainly(sample.catalog, groups, sample.question.assumptions,
                                                {&property}, most_states);
@@ -370,7 +370,7 @@ void run_case(std::uint64_t seed, oracle::Results& results) {
     ExplorationOptions options;
     options.budget.max_states = most_states;
     const Verification found = verify_properties(sample.catalog, file, options);
-    for (const Answer& answer : found.answers) {
+    for (const PropertyAnswer& answer : found.answers) {
       const Property& property = *answer.property;
       const bool is_proved = answer.verdict.by_constraints;
       if (property.kind == Property::Kind::always || property.kind == Property::Kind::never) {

@@ -5,7 +5,6 @@
 #include <exception>
 #include <functional>
 #include <memory>
-#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>

@@ -7,8 +7,6 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
-#include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>

@@ -104,9 +104,10 @@ class CaseCheck {
     const PlainComparison plain = compare(number, value);
     if (!plain.is_complete && !plain.differs) return;
     demand(plain.differs, "no difference at " + std::to_string(value));
-    demand(difference.path.has_value(), "no path");
+    demand(difference.in_state.has_value(), "no path");
     std::vector<std::string> moves;
-    describe_moves(present_, difference.path->script, difference.path->due, moves);
+    const Witness& path = difference.in_state->path;
+    describe_moves(present_, path.script, path.due, moves);
     demand(
         moves.size() == plain.moves.size(),
         std::to_string(moves.size()) + " moves in place of " + std::to_string(plain.moves.size()));
@@ -115,7 +116,7 @@ class CaseCheck {
     if (number.kind == TunableNumber::Kind::minimum_performance) {
       statistics_.count("bound of a minimum");
     }
-    check_broken(with(number, value), difference.broken_property);
+    check_broken(with(number, value), difference.in_state->broken_property);
   }
 
   void check_broken(const CompiledCatalog& changed, std::optional<std::size_t> broken) {

@@ -151,7 +151,7 @@ void run_property_case(std::uint64_t seed, oracle::Results& results) {
     ExplorationOptions options;
     options.budget.max_states = most_states;
     const Verification verification = verify_properties(sample.catalog, file, options);
-    for (const Answer& answer : verification.answers) {
+    for (const PropertyAnswer& answer : verification.answers) {
       demand(answer.witness.has_value() == answer.verdict.has_script, "no script for a verdict");
       if (!answer.witness) continue;
       text = answer.witness->text;

@@ -1,3 +1,5 @@
+#include "core/check/allow_comments.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -10,7 +12,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/check/controls.h"
 #include "core/diagnostic/rules.h"
 #include "findings.h"
 #include "support/rounds.h"

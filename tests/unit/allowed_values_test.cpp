@@ -1,6 +1,5 @@
 #include "core/catalog/allowed_values.h"
 
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>

@@ -3,7 +3,6 @@
 #include "ask/conflict/conflict_search.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <memory>
 #include <set>
-#include <type_traits>
 
 #include "core/catalog/allowed_values.h"
 #include "runtime/compiled/compiled_file.h"

@@ -1,7 +1,5 @@
 #include "core/support/graph.h"
 
-#include <algorithm>
-
 #include <gtest/gtest.h>
 
 namespace cbc::graph_test {

@@ -7,9 +7,7 @@
 #include <iterator>
 #include <map>
 #include <regex>
-#include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>

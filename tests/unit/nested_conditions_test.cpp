@@ -1,7 +1,6 @@
 // Conditions of property files that stand in one another, and lists in them: what is read, in
 // words, and what can never hold.
 #include <string>
-#include <string_view>
 
 #include <gtest/gtest.h>
 

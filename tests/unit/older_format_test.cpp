@@ -1,9 +1,7 @@
 #include "core/catalog/older_format.h"
 
-#include <algorithm>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
 // What goes on and what stays possible, and promises for a part of each run: their keys.
-#include <optional>
 #include <string>
 
 #include <gtest/gtest.h>

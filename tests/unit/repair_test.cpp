@@ -1,7 +1,5 @@
 // The repair of the present configuration, and the bounds of answers that are not proven.
-#include <cstdint>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 

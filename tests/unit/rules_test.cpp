@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <set>
@@ -13,8 +12,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/check/allow_comments.h"
 #include "core/check/check.h"
-#include "core/check/controls.h"
 #include "core/script/reader.h"
 #include "core/yaml/document.h"
 #include "runtime/compiled/compiled_catalog.h"

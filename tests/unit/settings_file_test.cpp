@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/check/controls.h"
+#include "core/check/severity_settings.h"
 #include "core/diagnostic/rules.h"
 #include "findings.h"
 #include "support/scratch_folder.h"

@@ -1,10 +1,10 @@
+#include "core/check/severity_settings.h"
+
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
-
-#include "core/check/controls.h"
 
 namespace cbc::severity_settings_test {
 namespace {

@@ -1,7 +1,6 @@
 #include "runtime/solver/solver.h"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,7 +1,5 @@
 #include "core/report/table.h"
 
-#include <string>
-
 #include <gtest/gtest.h>
 
 namespace cbc::table_test {

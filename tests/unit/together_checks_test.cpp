@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/check/check.h"
-#include "core/check/controls.h"
+#include "core/check/severity_settings.h"
 #include "core/yaml/document.h"
 #include "unit/findings.h"
 

@@ -1,5 +1,4 @@
 #include <map>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>

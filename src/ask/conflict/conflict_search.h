@@ -15,6 +15,10 @@
 #include "runtime/solver/objective.h"
 #include "runtime/solver/trail.h"
 
+// Why there is no assignment. The solver takes all constraints of a catalog; this search takes some
+// of them, and tells which ones its proof has used. From these a minimal conflict set is made
+// (reasons.h).
+
 namespace cbc {
 
 /// The trail of a search with only some constraints in force: exclusions and requirements, as they

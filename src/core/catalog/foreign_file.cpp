@@ -1,7 +1,6 @@
 #include "core/catalog/foreign_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <iterator>
 

@@ -12,7 +12,6 @@
 #include <map>
 #include <set>
 #include <unordered_map>
-#include <utility>
 
 #include "core/yaml/edits.h"
 #include "core/yaml/source.h"

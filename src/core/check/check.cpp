@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <numeric>
-#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -16,6 +14,7 @@
 #include "core/catalog/allowed_values.h"
 #include "core/catalog/catalog.h"
 #include "core/catalog/reader.h"
+#include "core/check/allow_comments.h"
 #include "core/check/proofs.h"
 #include "core/compile/compile.h"
 #include "core/diagnostic/diagnostic.h"

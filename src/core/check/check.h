@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/catalog/reader.h"
-#include "core/check/controls.h"
+#include "core/check/severity_settings.h"
 #include "core/compile/compile.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/yaml/document.h"

@@ -1,7 +1,6 @@
 // See proofs.h.
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -578,7 +577,6 @@ void check_by_proof(const CatalogReading& reading, const CompiledCatalog& compil
                           Effort(most_effort_of_assignments, options.is_stopped));
   const Liveness liveness(search);
   ProofContext proof(reading.catalog, search, liveness, options, reporter);
-  // Special cases first: what they explain is not explained again.
   for (std::size_t behavior = 0; behavior < conflicts.size(); ++behavior) {
     if (conflicts[behavior]) proof.explain_behavior(compiled.behavior_ids[behavior]);
   }

@@ -18,7 +18,9 @@
 namespace cbc {
 
 /// All checks of a catalog whose names were all understood, and whose requirements have no cycle.
-/// `conflicts`: by behavior, whether a finding already says that it can never be active.
+/// Their order is a rule: what one of them explains (ProofContext), those after it leave out, so
+/// the most special check comes first. `conflicts`: by behavior, whether a finding already says
+/// that it can never be active.
 void check_by_proof(const CatalogReading& reading, const CompiledCatalog& compiled,
                     const std::vector<bool>& conflicts, const LintOptions& options,
                     Reporter& reporter);
@@ -38,7 +40,7 @@ void check_situations(ProofContext& proof);
 /// understood.
 void check_together(ProofContext& proof, const LintOptions& options, bool is_complete);
 
-/// What the proof checks of one catalog share.
+/// What the proof checks of one catalog share, and what is explained so far.
 class ProofContext {
  public:
   /// All references must outlive this object.

@@ -1,7 +1,6 @@
 // See proofs.h, check_situations and check_together.
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>

@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <limits>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -1,10 +1,6 @@
 #include <cstddef>
-#include <cstdio>
-#include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <fmt/core.h>
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/check/allow_comments.h"
 #include "core/diagnostic/rules.h"
 #include "core/property/property_reader.h"
 #include "core/script/reader.h"

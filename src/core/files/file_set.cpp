@@ -11,7 +11,7 @@
 #include <fmt/core.h>
 
 #include "core/catalog/foreign_file.h"
-#include "core/check/controls.h"
+#include "core/check/allow_comments.h"
 #include "core/compile/compile.h"
 #include "core/diagnostic/rules.h"
 #include "core/files/output.h"

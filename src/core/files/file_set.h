@@ -6,13 +6,12 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/catalog/name_place.h"
 #include "core/check/check.h"
-#include "core/check/controls.h"
+#include "core/check/severity_settings.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/files/read.h"
 #include "core/files/recognition.h"

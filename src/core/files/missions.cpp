@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
-#include <string_view>
 #include <system_error>
 #include <utility>
 

@@ -1,22 +1,16 @@
 #include "core/files/output.h"
 
-#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <fcntl.h>
 #include <filesystem>
-#include <initializer_list>
 #include <poll.h>
 #include <string_view>
-#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <utility>
 
 #include <fmt/core.h>
 
@@ -38,150 +32,6 @@ int complain(const std::string& message) {
 int usage_error(std::string_view command, const std::string& message) {
   return complain("{}\nSee 'cbc{}{} --help'.", message, command.empty() ? "" : " ", command);
 }
-
-bool is_terminal(std::FILE* stream) {
-  const char* const terminal = std::getenv("TERM");
-  if (terminal == nullptr || std::string_view(terminal) == "dumb") return false;
-  return isatty(fileno(stream)) != 0;
-}
-
-std::size_t columns_of(std::FILE* stream) {
-  winsize size{};
-  return ::ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
-}
-
-std::size_t columns_for(std::FILE* stream) { return is_terminal(stream) ? columns_of(stream) : 0; }
-
-bool wants_color(std::FILE* stream) {
-  const char* const no_color = std::getenv("NO_COLOR");
-  return (no_color == nullptr || *no_color == '\0') && is_terminal(stream);
-}
-
-Style style_for(std::FILE* stream) { return wants_color(stream) ? color_style() : plain_style(); }
-
-std::size_t columns_for(const std::string& output) {
-  return output == "-" ? columns_for(stdout) : 0;
-}
-
-Style style_for(const std::string& output) {
-  return output == "-" ? style_for(stdout) : plain_style();
-}
-
-namespace {
-
-/// A longer line would wrap, and its first part could not be removed.
-std::string_view first_characters(std::string_view line, std::size_t count) {
-  std::size_t end = 0;
-  while (end < line.size() && count-- > 0) end += utf8::decode(line, end).bytes;
-  return line.substr(0, end);
-}
-
-}  // namespace
-
-Progress::Progress(std::string what, std::size_t total)
-    : what_(std::move(what)),
-      total_(total),
-      is_wanted_(is_terminal(stderr)),
-      start_(std::chrono::steady_clock::now()) {}
-
-Progress::~Progress() { clear(); }
-
-void Progress::begin(const std::string& name) {
-  ++begun_;
-  name_ = name;
-  show();
-}
-
-bool Progress::is_due() const {
-  constexpr std::chrono::milliseconds between_updates(100);  // nobody can read faster
-  const auto now = std::chrono::steady_clock::now();
-  return is_wanted_ && now - start_ >= std::chrono::seconds(1) &&
-         (!is_shown_ || now - shown_ >= between_updates);
-}
-
-decltype(Budget::tell) Progress::listener() {
-  return [this](const std::string& what, const std::function<std::string()>& how_far) {
-    const std::lock_guard lock(listening_);
-    if (name_ != what) begin(what);
-    if (is_due()) show(how_far());
-  };
-}
-
-void Progress::show(const std::string& detail) {
-  if (!is_due()) return;
-  // Overwrites the line: carriage return, text, erase to the end.
-  const std::string line =
-      fmt::format("{} {} of {}: {}{}", what_, begun_, total_, printable(name_), detail);
-  fmt::print(stderr, "\r{}\x1b[K", first_characters(line, columns_of(stderr) - 1));
-  std::fflush(stderr);
-  is_shown_ = true;
-  shown_ = std::chrono::steady_clock::now();
-}
-
-void Progress::clear() {
-  if (!is_shown_) return;
-  fmt::print(stderr, "\r\x1b[K");
-  is_shown_ = false;
-}
-
-namespace {
-
-constexpr std::array stop_signals = {SIGINT, SIGTERM, SIGHUP};
-
-// Signal handlers may access only such variables.
-volatile std::sig_atomic_t stop = 0;
-volatile std::sig_atomic_t asked_at = 0;  ///< in seconds
-std::array<int, 2> ends{-1, -1};
-
-std::sig_atomic_t seconds_now() {
-  timespec time{};
-  ::clock_gettime(CLOCK_MONOTONIC, &time);
-  return static_cast<std::sig_atomic_t>(time.tv_sec);
-}
-
-extern "C" void ask_to_stop(int signal) {
-  const int error = errno;
-  if (stop == 0) {
-    stop = 1;
-    asked_at = seconds_now();
-    static_cast<void>(!::write(ends[1], "", 1));
-  } else if (seconds_now() - asked_at > 1) {
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
-  }
-  errno = error;
-}
-
-}  // namespace
-
-StopSignals::StopSignals() {
-  if (::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK) != 0) {
-    throw SystemRefusal("cannot open a pipe", errno);
-  }
-  stop = 0;
-  struct sigaction action = {};
-  action.sa_handler = ask_to_stop;
-  action.sa_flags = SA_RESTART;  // resumes interrupted writes
-  sigemptyset(&action.sa_mask);
-  for (const int signal : stop_signals) sigaddset(&action.sa_mask, signal);
-  for (const int signal : stop_signals) {
-    struct sigaction before = {};
-    ::sigaction(signal, &action, &before);
-    // Under nohup the end of a connection must not stop the program.
-    if (signal == SIGHUP && before.sa_handler == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
-  }
-}
-
-StopSignals::~StopSignals() {
-  // All is saved; a signal now must not make the run look interrupted.
-  for (const int signal : stop_signals) std::signal(signal, SIG_IGN);
-  ::close(ends[0]);
-  ::close(ends[1]);
-}
-
-bool StopSignals::have_come() const { return stop != 0; }
-
-int StopSignals::descriptor() const { return ends[0]; }
 
 LineOutput::LineOutput() { std::signal(SIGPIPE, SIG_IGN); }
 

@@ -2,25 +2,20 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstddef>
-#include <cstdint>
-#include <cstdio>
-#include <cstring>
-#include <mutex>
-#include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include <fmt/core.h>
 
 #include "core/diagnostic/diagnostic.h"
+#include "core/files/terminal.h"
 #include "core/script/runner.h"
-#include "core/support/budget.h"
 #include "runtime/coordinator/coordinator.h"
+
+// What the program says and writes: its exit status, messages, lines of streams, files. (How texts
+// look is in terminal.h.)
 
 namespace cbc::cli {
 
@@ -30,14 +25,6 @@ enum ExitStatus : int {
   exit_no = 1,        ///< the answer is "no": a failed expectation, a stale file
   exit_unusable = 2,  ///< wrong usage, unusable input, or output that could not be written
   exit_internal = 3   ///< a fault of cbc
-};
-
-/// The system refuses what a run cannot do without, such as a thread. main() prints it.
-class SystemRefusal : public std::runtime_error {
- public:
-  /// `error` is a value of errno.
-  SystemRefusal(const std::string& what, int error)
-      : std::runtime_error(what + ": " + std::strerror(error)) {}
 };
 
 /// Prints a message to standard error. Returns exit_unusable, which most messages lead to.
@@ -55,77 +42,6 @@ int usage_error(std::string_view command, fmt::format_string<Arguments...> forma
                 Arguments&&... arguments) {
   return usage_error(command, fmt::format(format, std::forward<Arguments>(arguments)...));
 }
-
-/// Whether a stream is a terminal that understands escape sequences.
-[[nodiscard]] bool is_terminal(std::FILE* stream);
-
-/// The width of a terminal in characters; 80 if it is unknown.
-[[nodiscard]] std::size_t columns_of(std::FILE* stream);
-
-/// To how many columns texts for people are wrapped: the width of a terminal; 0 (not at all) if it
-/// is none.
-[[nodiscard]] std::size_t columns_for(std::FILE* stream);
-
-/// Whether to write colors to a stream: it is such a terminal, and NO_COLOR (https://no-color.org)
-/// is not set.
-[[nodiscard]] bool wants_color(std::FILE* stream);
-
-[[nodiscard]] Style style_for(std::FILE* stream);
-
-/// The same two for what write_output() writes there.
-[[nodiscard]] std::size_t columns_for(const std::string& output);
-[[nodiscard]] Style style_for(const std::string& output);
-
-/// A line on the terminal that shows the progress of a long command. Nothing is shown in the first
-/// second, or if standard error is not a terminal.
-class Progress {
- public:
-  /// `what` is being done to `total` things: "linting".
-  Progress(std::string what, std::size_t total);
-  ~Progress();
-
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-
-  /// Begins the next thing.
-  void begin(const std::string& name);
-  /// Shows the line, with `detail` at its end. May be called often: the terminal is updated a few
-  /// times per second.
-  void show(const std::string& detail = "");
-  /// Shows what a budget is told; each thing that is new begins. This object must outlive it.
-  [[nodiscard]] decltype(Budget::tell) listener();
-  /// Removes the line, until it is shown again.
-  void clear();
-
- private:
-  [[nodiscard]] bool is_due() const;
-
-  const std::string what_;
-  const std::size_t total_;
-  const bool is_wanted_;
-  const std::chrono::steady_clock::time_point start_;
-  std::size_t begun_ = 0;
-  std::string name_;  ///< of the thing that was begun last
-  std::mutex listening_;
-  bool is_shown_ = false;
-  std::chrono::steady_clock::time_point shown_;  ///< last
-};
-
-/// While it exists, SIGINT, SIGTERM and SIGHUP ask the program to stop instead of ending it. GNU
-/// timeout and terminals may send them twice at once, to the program and to its group, so only a
-/// signal that comes more than a second after the first one ends the program. There can be only one
-/// such object. After it is destroyed these signals are ignored, as the program is about to end.
-class StopSignals {
- public:
-  StopSignals();
-  ~StopSignals();
-  StopSignals(const StopSignals&) = delete;
-  StopSignals& operator=(const StopSignals&) = delete;
-
-  [[nodiscard]] bool have_come() const;
-  /// A descriptor for poll, which is readable once a signal has come.
-  [[nodiscard]] int descriptor() const;
-};
 
 /// Writes whole lines to standard output, many of them with one system call. While this object
 /// lives, a closed pipe is an ordinary error.

@@ -10,17 +10,17 @@
 
 namespace cbc::cli {
 
-std::optional<Questions> QuestionLoader::load(const std::vector<std::string>& paths,
-                                              const std::optional<std::string>& old_catalog) {
+std::optional<CheckedInput> QuestionLoader::load(const std::vector<std::string>& paths,
+                                                 const std::optional<std::string>& old_catalog) {
   add_first(paths.front());
   for (std::size_t place = 1; place < paths.size(); ++place) add_path(paths[place]);
   if (old_catalog) {
-    if (const auto catalog = files_.load(*old_catalog)) questions_.old_catalog = catalog->compiled;
-    if (questions_.old_catalog == nullptr) has_failed_ = true;
+    if (const auto catalog = files_.load(*old_catalog)) input_.old_catalog = catalog->compiled;
+    if (input_.old_catalog == nullptr) has_failed_ = true;
   }
   files_.print_findings();
   if (has_failed_) return std::nullopt;
-  return std::move(questions_);
+  return std::move(input_);
 }
 
 void QuestionLoader::add_first(const std::string& path) {
@@ -31,7 +31,7 @@ void QuestionLoader::add_first(const std::string& path) {
   }
   is_given_ = true;
   if (first) take_catalog(files_.load(*first));
-  has_failed_ = questions_.catalog == nullptr;
+  has_failed_ = input_.catalog == nullptr;
 }
 
 void QuestionLoader::add_path(const std::string& path) {
@@ -53,17 +53,17 @@ void QuestionLoader::refuse(const InputFile& file, const char* what) {
 }
 
 void QuestionLoader::take_catalog(const std::shared_ptr<const CheckedCatalog>& catalog) {
-  if (catalog != nullptr && catalog->compiled != nullptr) questions_.catalog = catalog;
+  if (catalog != nullptr && catalog->compiled != nullptr) input_.catalog = catalog;
 }
 
 void QuestionLoader::add_properties(const InputFile& file) {
   std::optional<PropertyFile> properties;
-  if (find_catalog(file)) properties = files_.read_properties(file, *questions_.catalog->compiled);
+  if (find_catalog(file)) properties = files_.read_properties(file, *input_.catalog->compiled);
   if (properties && lacks_properties(*file.document, *properties)) {
     return refuse(file, "has no property, so there is nothing to prove");
   }
   if (properties) {
-    questions_.files.push_back(std::make_unique<const PropertyFile>(std::move(*properties)));
+    input_.files.push_back(std::make_unique<const PropertyFile>(std::move(*properties)));
   } else {
     has_failed_ = true;
   }
@@ -71,7 +71,7 @@ void QuestionLoader::add_properties(const InputFile& file) {
 
 /// Whether there is a usable catalog for this property file.
 bool QuestionLoader::find_catalog(const InputFile& file) {
-  if (is_given_) return questions_.catalog != nullptr;
+  if (is_given_) return input_.catalog != nullptr;
   const std::optional<NamedCatalog> named = FileSet::expect_catalog(file);
   if (!named) return false;
   if (!named_catalog_) {
@@ -82,7 +82,7 @@ bool QuestionLoader::find_catalog(const InputFile& file) {
              named->place, quote(named->path), quote(*named_catalog_));
     return false;
   }
-  return questions_.catalog != nullptr;
+  return input_.catalog != nullptr;
 }
 
 }  // namespace cbc::cli

@@ -12,8 +12,8 @@
 
 namespace cbc::cli {
 
-/// What a command line asks about, checked before anything is explored.
-struct Questions {
+/// The files of a command line that asks about a catalog, checked before anything is explored.
+struct CheckedInput {
   std::shared_ptr<const CheckedCatalog> catalog;  ///< compiled
   std::vector<std::unique_ptr<const PropertyFile>> files;
   std::shared_ptr<const CompiledCatalog> old_catalog;  ///< to compare with, or null
@@ -24,8 +24,8 @@ class QuestionLoader {
  public:
   /// `paths`: a catalog, which may be missing if the property files name theirs, then property
   /// files; "-" is standard input. `old_catalog`: to compare with. Empty if anything is wrong.
-  [[nodiscard]] std::optional<Questions> load(const std::vector<std::string>& paths,
-                                              const std::optional<std::string>& old_catalog);
+  [[nodiscard]] std::optional<CheckedInput> load(const std::vector<std::string>& paths,
+                                                 const std::optional<std::string>& old_catalog);
 
   /// The findings about the files.
   [[nodiscard]] const std::vector<Diagnostic>& findings() const { return files_.findings(); }
@@ -39,7 +39,7 @@ class QuestionLoader {
   void refuse(const InputFile& file, const char* what);
 
   FileSet files_;
-  Questions questions_;
+  CheckedInput input_;
   bool is_given_ = false;                     ///< the catalog, on the command line
   std::optional<std::string> named_catalog_;  ///< path of the one that the property files name
   bool has_failed_ = false;

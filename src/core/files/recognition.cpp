@@ -19,12 +19,11 @@
 
 #include "cbc/event.h"
 #include "core/catalog/shape.h"
-#include "core/check/controls.h"
+#include "core/check/severity_settings.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/script/event_lines.h"
 #include "core/support/wording.h"
 #include "core/yaml/source.h"
-#include "runtime/base/text.h"
 #include "runtime/compiled/compiled_file.h"
 #include "runtime/coordinator/record.h"
 

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
-#include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/diagnostic/rules.h"

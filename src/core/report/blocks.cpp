@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <span>
 
-#include "runtime/base/text.h"
-
 namespace cbc {
 
 void Blocks::list(const std::vector<std::string>& lines, std::size_t most, std::string_view indent,

@@ -6,8 +6,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "core/report/event_description.h"
 #include "core/report/event_json.h"
@@ -17,7 +15,6 @@
 #include "core/support/json.h"
 #include "core/support/json_description.h"
 #include "core/support/wording.h"
-#include "core/words/explanation_words.h"
 #include "core/words/failure_explanation.h"
 #include "core/words/words.h"
 

@@ -7,7 +7,6 @@
 
 #include "core/diagnostic/diagnostic.h"
 #include "core/report/table.h"
-#include "core/support/json.h"
 #include "core/support/wording.h"
 #include "core/words/words.h"
 

@@ -53,19 +53,19 @@ std::string junit_case(const TestCase& test, const std::string& file) {
   if (test.status == TestCase::Status::skipped) {
     return text + fmt::format("><skipped message=\"{}\"/></testcase>\n", xml_text(test.more));
   }
-  std::string details = join(test.findings, "\n", with_place);
+  std::string findings = join(test.findings, "\n", with_place);
   if (test.status == TestCase::Status::passed) {
-    return text + (details.empty() ? "/>\n"
-                                   : fmt::format("><system-out>{}</system-out></testcase>\n",
-                                                 xml_lines(details)));
+    return text + (findings.empty() ? "/>\n"
+                                    : fmt::format("><system-out>{}</system-out></testcase>\n",
+                                                  xml_lines(findings)));
   }
   const Diagnostic& first = test.findings.front();
   std::string message = first.message.substr(0, first.message.find('\n'));
   if (test.findings.size() > 1) message += fmt::format(" (and {} more)", test.findings.size() - 1);
-  if (!test.more.empty()) details += "\n\n" + test.more;
+  if (!test.more.empty()) findings += "\n\n" + test.more;
   return text + fmt::format(">\n<{0} type=\"{1}\" message=\"{2}\">{3}</{0}>\n</testcase>\n",
                             test.status == TestCase::Status::failed ? "failure" : "error",
-                            xml_text(first.rule), xml_text(message), xml_lines(details));
+                            xml_text(first.rule), xml_text(message), xml_lines(findings));
 }
 
 std::string junit_suite(const TestSuite& suite) {

@@ -1,6 +1,5 @@
 #include "core/script/condition.h"
 
-#include <algorithm>
 #include <numeric>
 #include <span>
 

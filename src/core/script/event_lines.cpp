@@ -1,10 +1,8 @@
 #include "core/script/event_lines.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <utility>
 
 #include "cbc/event.h"
 #include "core/diagnostic/diagnostic.h"

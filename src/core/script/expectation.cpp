@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
-#include <string>
 #include <string_view>
 #include <utility>
 
 #include "core/diagnostic/rules.h"
 #include "core/script/contradictions.h"
 #include "core/yaml/values.h"
-#include "runtime/base/text.h"
 
 namespace cbc {
 

@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -67,9 +66,9 @@ class CatalogCoverage {
   [[nodiscard]] bool is_unreachable(std::size_t goal) const {
     return !reasons_.empty() && !reasons_[goal].empty() && !is_met(goal);
   }
-  /// Of an unreachable goal.
+  /// Why a goal is unreachable.
   [[nodiscard]] const std::string& reason_of(std::size_t goal) const { return reasons_[goal]; }
-  /// Of the proof; empty if nothing was to be proven.
+  /// The assumptions of the proof; empty if nothing was to be proven.
   [[nodiscard]] const std::optional<StatedAssumptions>& assumptions() const { return assumptions_; }
   [[nodiscard]] bool is_missed(std::size_t goal) const {
     return !is_met(goal) && !is_unreachable(goal);
@@ -77,7 +76,7 @@ class CatalogCoverage {
 
   [[nodiscard]] const CompiledCatalog& catalog() const { return *catalog_; }
   [[nodiscard]] const std::string& text() const { return text_; }
-  /// Of the text.
+  /// The digest of the text.
   [[nodiscard]] const std::string& digest() const { return digest_; }
   [[nodiscard]] const std::vector<Goal>& goals() const { return goals_; }
   /// In the order in which they came.

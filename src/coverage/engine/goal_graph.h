@@ -37,8 +37,8 @@ struct GoalGraph {
   std::size_t goal_count = 0;
   std::vector<std::uint32_t> begin{0};  ///< by state: its first edge; then the end
   std::vector<Edge> edges;              ///< by state, then in the order of moves
-  /// The goals of edges. A return (Goal::Kind::reactive_returned) counts only if the task has given
-  /// way before on the path: a number from `goal_count` on says that of goal number - goal_count.
+  /// What edges meet, see is_goal(). A return (Goal::Kind::reactive_returned) counts only if its
+  /// task has given way before on the path.
   std::vector<std::uint32_t> items;
   std::vector<std::uint8_t> is_return;  ///< by goal
   /// By group, without those after a stop; then of variables that no behavior names.
@@ -49,6 +49,13 @@ struct GoalGraph {
   [[nodiscard]] std::size_t explored_groups() const {
     return static_cast<std::size_t>(std::count_if(
         parts.begin(), parts.end(), [](const Part& part) { return part.variable == none; }));
+  }
+  /// Whether an item is a goal, by its number. Another one says that the task of a return gives
+  /// way.
+  [[nodiscard]] bool is_goal(std::uint32_t item) const { return item < goal_count; }
+  /// The item that says so of a return.
+  [[nodiscard]] std::uint32_t way_given_for(std::uint32_t goal) const {
+    return goal + static_cast<std::uint32_t>(goal_count);
   }
   [[nodiscard]] std::size_t state_count() const { return begin.size() - 1; }
   [[nodiscard]] std::span<const std::uint32_t> items_of(const Edge& edge) const {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -39,7 +38,7 @@ class GoalMonitor final : public RunListener {
   void on_event(const ExplainedRecord& record, const Step* /*step*/, const State& state) override {
     note_event(record, state);
   }
-  /// The same, without a runner. `state`: after the event.
+  /// Takes an event of a coordinator without a runner. `state`: after the event.
   void note_event(const EventRecord& record, const State& state);
 
   /// What was seen since the object was made; nothing of timeouts.

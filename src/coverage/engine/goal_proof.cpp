@@ -12,7 +12,6 @@
 #include "coverage/engine/goal_proof.h"
 
 #include <algorithm>
-#include <map>
 
 #include <fmt/format.h>
 

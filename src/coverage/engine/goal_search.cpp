@@ -34,7 +34,7 @@ Layer layer_of(const Found& found) {
   return layer;
 }
 
-/// Calls `take(from, outcome, after)` with all moves between states of a part that meet something.
+/// Calls `take(from, result, after)` with all moves between states of a part that meet something.
 template <typename Take>
 void for_each_note(StatePart& part, Take&& take) {
   ControlSystem& system = part.system();
@@ -46,8 +46,8 @@ void for_each_note(StatePart& part, Take&& take) {
       const ControlSystem::Action& made = system.actions()[action];
       const Set set = system.sets().both(part.visited(control), made.condition);
       if (set == Diagrams::empty || !system.may_have(action)) continue;
-      part.controls().for_each_outcome(action, set, [&](Controls::Outcome outcome, Set from) {
-        if (outcome.note != 0) take({control, from}, outcome, system.after(made, from));
+      part.controls().for_each_result(action, set, [&](Controls::NumberedResult result, Set from) {
+        if (result.note != 0) take({control, from}, result, system.after(made, from));
       });
     }
   }
@@ -104,8 +104,8 @@ GoalSearchResult GoalSearch::run(GoalFacts& facts, std::vector<std::uint8_t>& me
   struct NoVisitor {
     void visit(const StatePart::States& /*states*/, std::uint32_t /*depth*/) const {}
     void on_refusal(std::uint32_t /*action*/, const StatePart::States& /*states*/) const {}
-    void on_outcome(std::uint32_t /*action*/, const StatePart::States& /*states*/,
-                    Controls::Outcome /*outcome*/) const {}
+    void on_result(std::uint32_t /*action*/, const StatePart::States& /*states*/,
+                   Controls::NumberedResult /*result*/) const {}
     void on_note(std::uint32_t /*note*/, const StatePart::States& /*states*/) const {}
   };
   std::vector<NoVisitor> visitors(systems_.size());
@@ -133,15 +133,16 @@ void GoalSearch::find_returns(std::vector<std::uint8_t>& met) {
       Set& known = found[place].try_emplace(control, Diagrams::empty).first->second;
       known = part.system().sets().either(known, environments);
     };
-    for_each_note(part, [&](const StatePart::States& from, Controls::Outcome outcome, Set to) {
-      for (const std::uint32_t item : systems_[place]->items_of(outcome.note)) {
-        if (item >= goals.size()) {
-          add(after[item - static_cast<std::uint32_t>(goals.size())], outcome.control, to);
-        } else if (goals[item].kind == Goal::Kind::reactive_returned) {
-          add(before[item], from.control, from.environments);
-        }
-      }
-    });
+    for_each_note(
+        part, [&](const StatePart::States& from, Controls::NumberedResult result, Set to) {
+          for (const std::uint32_t item : systems_[place]->items_of(result.note)) {
+            if (item >= goals.size()) {
+              add(after[item - static_cast<std::uint32_t>(goals.size())], result.control, to);
+            } else if (goals[item].kind == Goal::Kind::reactive_returned) {
+              add(before[item], from.control, from.environments);
+            }
+          }
+        });
   }
   for (const auto& [goal, starts] : before) {
     if (!after.contains(goal)) continue;

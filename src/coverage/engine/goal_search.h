@@ -17,13 +17,14 @@
 
 namespace cbc {
 
+/// What the searches of all groups may take together.
 struct GoalSearchOptions {
   Budget budget;      ///< of all groups together; states and memory: of each
   unsigned jobs = 1;  ///< threads
   double kept = 0;    ///< the share of the time for what comes after all groups
 
-  /// Of a group, of several that are visited one after the other: a tenth of the time is shared by
-  /// those after it, which may be small.
+  /// The budget of one of several groups that are visited one after the other: a tenth of the time
+  /// is shared by those after it, which may be small.
   [[nodiscard]] Budget budget_of(GroupId group, std::size_t groups) const;
 };
 

@@ -67,19 +67,19 @@ void GoalSystem::find_changes() {
   }
 }
 
-ControlSystem::Outcome GoalSystem::take(std::uint32_t action, SystemOracle& oracle) {
+ControlSystem::MoveResult GoalSystem::take(std::uint32_t action, SystemOracle& oracle) {
   notes_.begin();
   trace_.events.clear();
   started_.clear();
   changed_.taken.assign(model().tasks().size(), 0);
   changed_.activated.assign(model().behaviors().size(), 0);
-  Outcome outcome = CatalogSystem::take(action, oracle);
+  MoveResult result = CatalogSystem::take(action, oracle);
   note_fits(action, oracle);
   const Model::Choice& choice = choice_of(action);
   if (choice.move.kind == Move::Kind::start) {
     const TaskId task = model().tasks()[choice.subject].id;
     GoalFacts& facts = notes_.facts();
-    (outcome.accepted ? facts.start_accepted : facts.start_rejected)[task] = 1;
+    (result.accepted ? facts.start_accepted : facts.start_rejected)[task] = 1;
   }
   for (const MoveTrace::Happening& event : trace_.events) {
     for (const MoveTrace::Change& change : event.changes) {
@@ -91,8 +91,8 @@ ControlSystem::Outcome GoalSystem::take(std::uint32_t action, SystemOracle& orac
     }
   }
   race_.note(stepper(), choice.move, changed_);
-  outcome.note = note_of_move(action);
-  return outcome;
+  result.note = note_of_move(action);
+  return result;
 }
 
 void GoalSystem::note_fits(std::uint32_t action, SystemOracle& oracle) {

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "coverage/engine/goal_notes.h"
@@ -48,7 +46,7 @@ class GoalSystem final : public CatalogSystem, private AnswerListener {
   /// Takes note of the situations of reachable states.
   void note_situations(Set environments);
 
-  [[nodiscard]] Outcome take(std::uint32_t action, SystemOracle& oracle) override;
+  [[nodiscard]] MoveResult take(std::uint32_t action, SystemOracle& oracle) override;
   void for_each_kept(const std::function<void(Set)>& keep) const override;
 
  private:

@@ -1,6 +1,7 @@
 #include "coverage/engine/goals.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <utility>

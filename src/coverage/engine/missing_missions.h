@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/property/properties.h"
@@ -51,7 +50,7 @@ struct MissingMissions {
   /// stop, the others, of which the first is `unexplored`.
   std::vector<GroupId> partial;
   GroupId unexplored;  ///< the number of groups if there are none
-  /// The same, of variables that no behavior names and that `never` binds.
+  /// Variables that no behavior names and that `never` binds, and were not explored completely.
   std::vector<std::uint32_t> partial_variables;
   std::uint64_t states = 0;
   Phase reached = Phase::done;       ///< what the budget ended; then the missions are those so far

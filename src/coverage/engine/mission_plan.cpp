@@ -32,21 +32,21 @@ class Walk {
   template <typename Function>
   void look(const GoalGraph::Edge& edge, Function&& function) const {
     for (const std::uint32_t item : graph_->items_of(edge)) {
-      if (item < graph_->goal_count && counts(item)) function(item);
+      if (graph_->is_goal(item) && counts(item)) function(item);
     }
   }
   void take(const GoalGraph::Edge& edge) {
     look(edge, [&](std::uint32_t goal) { seen_[goal] = 1; });
     // Whoever gives way does not return in the same move.
     for (const std::uint32_t item : graph_->items_of(edge)) {
-      if (item >= graph_->goal_count) seen_[item] = 1;
+      if (!graph_->is_goal(item)) seen_[item] = 1;
     }
   }
 
  private:
   [[nodiscard]] bool counts(std::uint32_t goal) const {
     return seen_[goal] == 0 &&
-           (graph_->is_return[goal] == 0 || seen_[goal + graph_->goal_count] != 0);
+           (graph_->is_return[goal] == 0 || seen_[graph_->way_given_for(goal)] != 0);
   }
 
   const GoalGraph* graph_;
@@ -124,7 +124,7 @@ void MissionPlanner::find_limits(std::uint32_t events) {
     const std::size_t first_return = returns.size();
     for (std::uint32_t edge = first_edge; edge < last_edge; ++edge) {
       for (const std::uint32_t item : graph_.items_of(graph_.edges[edge])) {
-        if (item >= graph_.goal_count) continue;
+        if (!graph_.is_goal(item)) continue;
         if (graph_.is_return[item] == 0) {
           if (note(item, part, depths_[source_[edge]] + 1)) nearest_[item] = edge;
           continue;
@@ -161,7 +161,7 @@ std::vector<std::uint32_t> MissionPlanner::shortest_to(std::uint32_t state) cons
 MissionPlanner::Path MissionPlanner::path_that_returns(std::uint32_t part,
                                                        std::uint32_t goal) const {
   const std::uint32_t first = graph_.parts[part].first_state;
-  const std::uint32_t gave_way = goal + static_cast<std::uint32_t>(graph_.goal_count);
+  const std::uint32_t gave_way = graph_.way_given_for(goal);
   struct Visit {
     std::uint32_t state = 0;  ///< twice the state, plus 1 if the task has given way
     std::uint32_t edge = none;
@@ -203,7 +203,7 @@ void MissionPlanner::weigh(const std::vector<Weight>& weights, std::uint32_t par
   for (std::uint32_t edge = graph_.begin[first]; edge < graph_.begin[end]; ++edge) {
     edge_weights_[edge] = 0;
     for (const std::uint32_t item : graph_.items_of(graph_.edges[edge])) {
-      if (item < graph_.goal_count) edge_weights_[edge] += weights[item];
+      if (graph_.is_goal(item)) edge_weights_[edge] += weights[item];
     }
   }
   const std::uint32_t longest = part == none ? longest_ : limits_[part];
@@ -259,7 +259,7 @@ std::vector<std::uint32_t> MissionPlanner::find_homes() const {
     const std::uint32_t end = graph_.begin[end_of(part)];
     for (std::uint32_t edge = graph_.begin[graph_.parts[part].first_state]; edge < end; ++edge) {
       for (const std::uint32_t item : graph_.items_of(graph_.edges[edge])) {
-        if (item >= graph_.goal_count) continue;
+        if (!graph_.is_goal(item)) continue;
         homes[item] = homes[item] == unknown || homes[item] == part ? part : none;
       }
     }
@@ -316,7 +316,7 @@ std::uint64_t MissionPlanner::improve(std::vector<Weight>& weights, std::uint32_
     const unsigned shift = round < rounds / 4 ? 2 : round < rounds / 2 ? 3 : 4;
     for (const std::uint32_t edge : heaviest_path(at).edges) {
       for (const std::uint32_t item : graph_.items_of(graph_.edges[edge])) {
-        if (item < graph_.goal_count) weights[item] -= weights[item] >> shift;
+        if (graph_.is_goal(item)) weights[item] -= weights[item] >> shift;
       }
     }
     const Weight heaviest = *std::max_element(weights.begin(), weights.end());
@@ -501,7 +501,7 @@ std::vector<MissionPlanner::Path> MissionPlanner::paths_toward(const Goals& want
     std::set<std::uint32_t> goals;
     for (std::uint32_t edge = graph_.begin[state]; edge < graph_.begin[state + 1]; ++edge) {
       for (const std::uint32_t item : graph_.items_of(graph_.edges[edge])) {
-        if (item < graph_.goal_count && wanted[item] != 0) goals.insert(item);
+        if (graph_.is_goal(item) && wanted[item] != 0) goals.insert(item);
       }
     }
     ahead[state] = goals.size();

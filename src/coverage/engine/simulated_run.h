@@ -44,8 +44,8 @@ class MissionSimulator {
 
   /// A mission of these moves, without timeouts.
   [[nodiscard]] SimulatedRun run(GroupId group, const std::vector<Move>& moves) const;
-  /// The same with timeouts: in place of some failures it waits. What comes of it may be another
-  /// mission.
+  /// A mission of these moves with timeouts: in place of some failures it waits. What comes of it
+  /// may be another mission.
   [[nodiscard]] SimulatedRun run_by_clock(GroupId group, const std::vector<Move>& moves,
                                           const std::vector<std::uint8_t>& is_timeout) const;
   /// Makes the moves, one soon after the other, and then only waits: as long as timeouts meet some

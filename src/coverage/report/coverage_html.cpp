@@ -7,9 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/support/wording.h"
-#include "core/words/words.h"
 #include "coverage/report/coverage_report.h"
-#include "explore/properties/explore.h"
 #include "page/table_page.h"
 
 // The page needs no script: what a line shows on demand is in elements that unfold.

@@ -4,11 +4,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "core/compile/catalog_json.h"
 #include "core/report/assumptions_json.h"

@@ -38,7 +38,7 @@ void CatalogSystem::add_moves() {
       moves_.push_back({choice.move, none, model_.behaviors()[choice.subject].fault});
       continue;
     }
-    for (const Environments::Effect& effect : environments().effects_of(choice)) {
+    for (const Environments::ActionEffect& effect : environments().effects_of(choice)) {
       const Set condition = sets_.without(effect.condition, effect.excluded);
       if (condition == Diagrams::empty) continue;
       moves_.push_back({effect.move, static_cast<std::uint32_t>(actions_.size()), none});
@@ -81,26 +81,26 @@ std::vector<std::uint8_t> CatalogSystem::first_environment() const {
 
 // Moves.
 
-ControlSystem::Outcome CatalogSystem::take(std::uint32_t action, SystemOracle& oracle) {
+ControlSystem::MoveResult CatalogSystem::take(std::uint32_t action, SystemOracle& oracle) {
   const Tried& tried = tried_[action];
   side_.take(tried.choice, tried.effect, oracle);
   // A start that is no move may lead to what no state is.
-  Outcome outcome = actions_[action].is_move ? outcome_after() : Outcome();
-  outcome.accepted = stepper().was_accepted();
-  return outcome;
+  MoveResult result = actions_[action].is_move ? result_after() : MoveResult();
+  result.accepted = stepper().was_accepted();
+  return result;
 }
 
-ControlSystem::Outcome CatalogSystem::take_fault() {
+ControlSystem::MoveResult CatalogSystem::take_fault() {
   side_.stepper().stay();
-  return outcome_after();
+  return result_after();
 }
 
-ControlSystem::Outcome CatalogSystem::take_repair(std::uint32_t group) {
+ControlSystem::MoveResult CatalogSystem::take_repair(std::uint32_t group) {
   side_.take_repair(model_.groups()[group].behaviors.begin);
-  return outcome_after();
+  return result_after();
 }
 
-ControlSystem::Outcome CatalogSystem::outcome_after() {
+ControlSystem::MoveResult CatalogSystem::result_after() {
   side_.pack_after(packed_.data());
   return {packed_.data()};
 }

@@ -15,7 +15,8 @@
 
 namespace cbc {
 
-/// The states of a model, for the properties of one catalog. The model must outlive it.
+/// The states of one catalog's model, and what moves do to them: what properties are about, and
+/// where the goals of coverage are watched. The model must outlive it.
 class CatalogSystem : public ControlSystem {
  public:
   /// A mark that is part of the states; see Property::after.
@@ -53,9 +54,9 @@ class CatalogSystem : public ControlSystem {
   [[nodiscard]] bool may_have(std::uint32_t action) const override {
     return side_.stepper().may_have(tried_[action].choice);
   }
-  [[nodiscard]] Outcome take(std::uint32_t action, SystemOracle& oracle) override;
-  [[nodiscard]] Outcome take_fault() override;
-  [[nodiscard]] Outcome take_repair(std::uint32_t group) override;
+  [[nodiscard]] MoveResult take(std::uint32_t action, SystemOracle& oracle) override;
+  [[nodiscard]] MoveResult take_fault() override;
+  [[nodiscard]] MoveResult take_repair(std::uint32_t group) override;
   [[nodiscard]] bool has_mark() const override { return mark_after_.has_value(); }
   [[nodiscard]] Set with_marks(Set set) override;
   [[nodiscard]] Set before_marks(Set set) override;
@@ -70,10 +71,10 @@ class CatalogSystem : public ControlSystem {
   }
 
  private:
-  /// Of an action.
+  /// What an action tries.
   struct Tried {
     Model::Choice choice;
-    Environments::Effect effect;
+    Environments::ActionEffect effect;
   };
   /// Where the mark is set, and where it is cleared, in states of the loaded control.
   struct MarkSets {
@@ -87,7 +88,7 @@ class CatalogSystem : public ControlSystem {
   void add_moves();
   void add_mark(const Mark& mark, std::uint32_t bit);
   [[nodiscard]] MarkSets find_marks();
-  [[nodiscard]] Outcome outcome_after();
+  [[nodiscard]] MoveResult result_after();
 
   const Model& model_;
   ControlStepper side_;

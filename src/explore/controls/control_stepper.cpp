@@ -9,7 +9,8 @@ namespace {
 /// Asks for sets of environments before the move.
 class EffectOracle final : public EnvironmentOracle {
  public:
-  EffectOracle(Environments& environments, const Environments::Effect& effect, SystemOracle& oracle)
+  EffectOracle(Environments& environments, const Environments::ActionEffect& effect,
+               SystemOracle& oracle)
       : environments_(environments), effect_(effect), oracle_(oracle) {}
 
   [[nodiscard]] bool holds(EnvironmentQuery query) override {
@@ -18,7 +19,7 @@ class EffectOracle final : public EnvironmentOracle {
 
  private:
   Environments& environments_;
-  const Environments::Effect& effect_;
+  const Environments::ActionEffect& effect_;
   SystemOracle& oracle_;
 };
 
@@ -34,7 +35,7 @@ ControlStepper::ControlStepper(const Model& model, const Stepper::Options& optio
                                EnvironmentBits bits, Diagrams& sets)
     : model_(model), environments_(model, std::move(bits), sets), stepper_(model, options) {}
 
-void ControlStepper::take(const Model::Choice& choice, const Environments::Effect& effect,
+void ControlStepper::take(const Model::Choice& choice, const Environments::ActionEffect& effect,
                           SystemOracle& oracle) {
   EffectOracle asked(environments_, effect, oracle);
   stepper_.take(choice, environments_.possible_after(effect), asked);

@@ -10,8 +10,10 @@
 
 namespace cbc {
 
-/// Makes moves of the controls of a model: all of a state but its environment. The model and the
-/// diagrams must outlive it. Not for use by several threads.
+/// Makes moves of the controls of a model: all of a state but its environment. It joins a Stepper,
+/// which asks about the environment after a move, with Environments, which know the sets before the
+/// move that this depends on. A system has one for each catalog. The model and the diagrams must
+/// outlive it. Not for use by several threads.
 class ControlStepper {
  public:
   ControlStepper(const Model& model, const Stepper::Options& options, EnvironmentBits bits,
@@ -19,12 +21,13 @@ class ControlStepper {
 
   [[nodiscard]] Environments& environments() { return environments_; }
   [[nodiscard]] const Environments& environments() const { return environments_; }
-  /// Of its state, what it says of the control counts.
+  /// Only what its state says of the control counts.
   [[nodiscard]] Stepper& stepper() { return stepper_; }
   [[nodiscard]] const Stepper& stepper() const { return stepper_; }
 
   /// Makes a move that has an effect from the control that the stepper has loaded.
-  void take(const Model::Choice& choice, const Environments::Effect& effect, SystemOracle& oracle);
+  void take(const Model::Choice& choice, const Environments::ActionEffect& effect,
+            SystemOracle& oracle);
   /// What repairs of a behavior do to the control.
   void take_repair(std::uint32_t behavior);
 

@@ -45,8 +45,8 @@ void ControlSystem::change(const StateMove& move, std::vector<std::uint8_t>& env
   }
 }
 
-ControlSystem::Outcome ControlSystem::make(const StateMove& move,
-                                           const std::vector<std::uint8_t>& environment) {
+ControlSystem::MoveResult ControlSystem::make(const StateMove& move,
+                                              const std::vector<std::uint8_t>& environment) {
   if (move.fault != none) {
     return move.move.kind == Move::Kind::repair ? take_repair(faults_.kind_of(move.fault))
                                                 : take_fault();

@@ -40,7 +40,8 @@ class ControlSystem {
     std::uint32_t action = none;
     std::uint32_t fault = none;  ///< of a fault or a repair, which are no actions
   };
-  struct Outcome {
+  /// What comes of a move.
+  struct MoveResult {
     const std::uint32_t* control = nullptr;  ///< valid until the next call; null: it leads nowhere
     bool accepted = false;                   ///< of a start
     std::uint32_t note = 0;                  ///< what the system says of it; 0: nothing
@@ -62,7 +63,7 @@ class ControlSystem {
   [[nodiscard]] Set after(const Action& action, Set set) {
     return action.changes ? sets_.changed(set, action.values) : set;
   }
-  /// Those that become one of the set, if the action exists in them.
+  /// The environments that become one of the set, if the action exists in them.
   [[nodiscard]] Set before(const Action& action, Set set) {
     const Set reached = action.changes ? sets_.before_change(set, action.values) : set;
     return sets_.both(reached, action.condition);
@@ -81,10 +82,10 @@ class ControlSystem {
   [[nodiscard]] virtual bool may_have(std::uint32_t action) const = 0;
   /// What comes of an action in one environment: the same in all in which the oracle would answer
   /// the same.
-  [[nodiscard]] virtual Outcome take(std::uint32_t action, SystemOracle& oracle) = 0;
+  [[nodiscard]] virtual MoveResult take(std::uint32_t action, SystemOracle& oracle) = 0;
   /// What comes of a fault, and of a repair of a kind, which does not depend on the environment.
-  [[nodiscard]] virtual Outcome take_fault() = 0;
-  [[nodiscard]] virtual Outcome take_repair(std::uint32_t kind) = 0;
+  [[nodiscard]] virtual MoveResult take_fault() = 0;
+  [[nodiscard]] virtual MoveResult take_repair(std::uint32_t kind) = 0;
 
   // A state of the loaded control.
 
@@ -93,7 +94,8 @@ class ControlSystem {
   /// What the move does to its environment.
   void change(const StateMove& move, std::vector<std::uint8_t>& environment) const;
   /// What the move makes of its control.
-  [[nodiscard]] Outcome make(const StateMove& move, const std::vector<std::uint8_t>& environment);
+  [[nodiscard]] MoveResult make(const StateMove& move,
+                                const std::vector<std::uint8_t>& environment);
 
   // A mark, which is a part of environments that states get as they are entered.
 

@@ -28,18 +28,18 @@ class Controls::Asked final : public SystemOracle {
     if (std::find(known.begin(), known.end(), set) != known.end()) return answer;
     known.push_back(set);
     // What was asked before may be more than what is asked now.
-    while (is_question() && asked_here() != set) go_on(contains(asked_here()));
-    if (!is_question()) {
-      controls_.at(place_) = static_cast<Tree>(controls_.questions_.size());
-      controls_.questions_.push_back({set, {0, 0}});
+    while (is_branch() && asked_here() != set) go_on(contains(asked_here()));
+    if (!is_branch()) {
+      controls_.at(place_) = static_cast<Tree>(controls_.branches_.size());
+      controls_.branches_.push_back({set, {0, 0}});
     }
     go_on(answer);
     return answer;
   }
 
-  /// Where the outcome belongs.
+  /// Where the result belongs.
   [[nodiscard]] const Place& place() {
-    while (is_question()) go_on(contains(asked_here()));
+    while (is_branch()) go_on(contains(asked_here()));
     return place_;
   }
 
@@ -47,11 +47,11 @@ class Controls::Asked final : public SystemOracle {
   [[nodiscard]] bool contains(Set set) const {
     return controls_.system_.sets().contains(set, environment_);
   }
-  [[nodiscard]] bool is_question() const {
+  [[nodiscard]] bool is_branch() const {
     const Tree tree = controls_.at(place_);
-    return tree != 0 && (tree & is_outcome) == 0;
+    return tree != 0 && (tree & is_result) == 0;
   }
-  [[nodiscard]] Set asked_here() const { return controls_.questions_[controls_.at(place_)].asked; }
+  [[nodiscard]] Set asked_here() const { return controls_.branches_[controls_.at(place_)].asked; }
   void go_on(bool answer) { place_ = {controls_.at(place_), answer ? 1U : 0U, false}; }
 
   Controls& controls_;
@@ -60,7 +60,7 @@ class Controls::Asked final : public SystemOracle {
 };
 
 Controls::Controls(ControlSystem& system)
-    : system_(system), store_(system.first_control().size()), questions_(1) {}
+    : system_(system), store_(system.first_control().size()), branches_(1) {}
 
 void Controls::load(Number control) {
   if (control == loaded_) return;
@@ -71,36 +71,35 @@ void Controls::load(Number control) {
   if (roots_.size() < roots) roots_.resize(std::max(roots, store_.size() * actions), 0);
 }
 
-/// Finds the outcome in one environment.
+/// Finds the result in one environment.
 void Controls::explore(std::uint32_t action, const std::vector<std::uint8_t>& environment) {
   Asked asked(*this, environment, root_of(action));
-  const Outcome outcome = numbered(system_.take(action, asked));
-  at(asked.place()) = tree_of(outcome);
+  const NumberedResult result = numbered(system_.take(action, asked));
+  at(asked.place()) = tree_of(result);
   ++regions_;
 }
 
-Controls::Outcome Controls::numbered(const ControlSystem::Outcome& outcome) {
-  return {outcome.control == nullptr ? none : find(outcome.control), outcome.accepted,
-          outcome.note};
+Controls::NumberedResult Controls::numbered(const ControlSystem::MoveResult& result) {
+  return {result.control == nullptr ? none : find(result.control), result.accepted, result.note};
 }
 
-Controls::Tree Controls::tree_of(const Outcome& outcome) {
-  if (outcome.note != 0) {
-    noted_.push_back(outcome);
-    return is_outcome | is_noted | static_cast<Tree>(noted_.size() - 1);
+Controls::Tree Controls::tree_of(const NumberedResult& result) {
+  if (result.note != 0) {
+    noted_.push_back(result);
+    return is_result | is_noted | static_cast<Tree>(noted_.size() - 1);
   }
-  return is_outcome | (outcome.accepted ? is_accepted : 0) |
-         (outcome.control == none ? no_control : outcome.control);
+  return is_result | (result.accepted ? is_accepted : 0) |
+         (result.control == none ? no_control : result.control);
 }
 
-Controls::Outcome Controls::outcome_in(std::uint32_t action,
-                                       const std::vector<std::uint8_t>& environment) {
+Controls::NumberedResult Controls::result_in(std::uint32_t action,
+                                             const std::vector<std::uint8_t>& environment) {
   Place place = root_of(action);
   for (;;) {
     if (at(place) == 0) explore(action, environment);
     const Tree tree = at(place);
-    if ((tree & is_outcome) != 0) return outcome_of(tree);
-    const bool answer = system_.sets().contains(questions_[tree].asked, environment);
+    if ((tree & is_result) != 0) return result_of(tree);
+    const bool answer = system_.sets().contains(branches_[tree].asked, environment);
     place = {tree, answer ? 1U : 0U, false};
   }
 }
@@ -116,10 +115,10 @@ std::vector<Controls::Number> Controls::successors_of(Number control) const {
     const Tree tree = open.back();
     open.pop_back();
     if (tree == 0) continue;
-    if ((tree & is_outcome) == 0) {
-      for (const Tree answer : questions_[tree].answers) open.push_back(answer);
-    } else if (const Outcome outcome = outcome_of(tree); outcome.control != none) {
-      successors.push_back(outcome.control);
+    if ((tree & is_result) == 0) {
+      for (const Tree answer : branches_[tree].answers) open.push_back(answer);
+    } else if (const NumberedResult result = result_of(tree); result.control != none) {
+      successors.push_back(result.control);
     }
   }
   std::sort(successors.begin(), successors.end());
@@ -128,8 +127,8 @@ std::vector<Controls::Number> Controls::successors_of(Number control) const {
 }
 
 std::uint64_t Controls::bytes() const {
-  return store_.bytes() + roots_.capacity() * sizeof(Tree) +
-         questions_.capacity() * sizeof(Question) + noted_.capacity() * sizeof(Outcome);
+  return store_.bytes() + roots_.capacity() * sizeof(Tree) + branches_.capacity() * sizeof(Branch) +
+         noted_.capacity() * sizeof(NumberedResult);
 }
 
 }  // namespace cbc

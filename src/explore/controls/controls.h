@@ -9,15 +9,17 @@
 
 namespace cbc {
 
-/// The controls of a system, numbered. And what moves make of them, in which environments, as far
-/// as that was asked. The system must outlive it. Not for use by several threads.
+/// The controls of a system, numbered, and what moves make of them. A move is made in one
+/// environment, and never again for others about which its questions have the same answers: these
+/// questions are kept as a tree for each action of each control. The system must outlive it. Not
+/// for use by several threads.
 class Controls {
  public:
   using Number = std::uint32_t;
   using Set = ControlSystem::Set;
 
-  /// See ControlSystem::Outcome.
-  struct Outcome {
+  /// A ControlSystem::MoveResult, whose control has a number.
+  struct NumberedResult {
     Number control = none;
     bool accepted = false;
     std::uint32_t note = 0;
@@ -30,12 +32,12 @@ class Controls {
   [[nodiscard]] Number find(const std::uint32_t* packed) {
     return store_.insert(packed, store_.hash(packed));
   }
-  /// The same, but nothing if the control is new.
+  /// The number of a control, or nothing if it is new.
   [[nodiscard]] std::optional<Number> known(const std::uint32_t* packed) const {
     return store_.find(packed, store_.hash(packed));
   }
   [[nodiscard]] const std::uint32_t* packed(Number control) const { return store_.state(control); }
-  /// The same for one control in all objects of this class.
+  /// The hash of a control: the same one in all objects of this class.
   [[nodiscard]] std::uint64_t hash(const std::uint32_t* packed) const {
     return store_.hash(packed);
   }
@@ -43,48 +45,49 @@ class Controls {
   void load(Number control);
 
   /// What an action makes of the loaded control in the environments of a set, in which it exists:
-  /// calls `take` with each outcome and the part of the set where it is the one.
+  /// calls `take` with each result and the part of the set where it is the one.
   template <typename Take>
-  void for_each_outcome(std::uint32_t action, Set set, Take&& take) {
+  void for_each_result(std::uint32_t action, Set set, Take&& take) {
     walk(root_of(action), action, set, take);
   }
-  /// What it makes of it in one environment.
-  [[nodiscard]] Outcome outcome_in(std::uint32_t action,
-                                   const std::vector<std::uint8_t>& environment);
-  [[nodiscard]] Outcome after_fault() { return numbered(system_.take_fault()); }
-  [[nodiscard]] Outcome after_repair(std::uint32_t kind) {
+  /// What an action makes of the loaded control in one environment.
+  [[nodiscard]] NumberedResult result_in(std::uint32_t action,
+                                         const std::vector<std::uint8_t>& environment);
+  [[nodiscard]] NumberedResult after_fault() { return numbered(system_.take_fault()); }
+  [[nodiscard]] NumberedResult after_repair(std::uint32_t kind) {
     return numbered(system_.take_repair(kind));
   }
   /// The controls that actions make of one, in some environment that was asked about.
   [[nodiscard]] std::vector<Number> successors_of(Number control) const;
 
-  /// How often an outcome of an action was found; those that lead to the same control are several.
+  /// How often a result of an action was found; those that lead to the same control are several.
   [[nodiscard]] std::uint64_t regions() const { return regions_; }
   [[nodiscard]] std::uint64_t bytes() const;
 
   /// What must survive Diagrams::collect().
   template <typename Keep>
   void for_each_kept(Keep&& keep) const {
-    for (const Question& question : questions_) keep(question.asked);
+    for (const Branch& branch : branches_) keep(branch.asked);
   }
 
  private:
-  /// A question, or an outcome; 0: it is not known yet.
+  /// A branch, or a result; 0: it is not known yet.
   using Tree = std::uint32_t;
-  struct Question {
+  /// A question that a move asked, and what comes after either answer.
+  struct Branch {
     Set asked = Diagrams::empty;
     Tree answers[2] = {0, 0};  ///< no, yes
   };
-  /// Of a tree: that of an action, or the answer to a question.
+  /// Where a tree stands: it is that of an action, or behind an answer.
   struct Place {
-    std::size_t number = 0;  ///< of a root, of a question
+    std::size_t number = 0;  ///< of a root, of a branch
     std::uint32_t answer = 0;
     bool is_root = false;
   };
   class Asked;
 
-  // An outcome: a control, or a place in `noted_`.
-  static constexpr Tree is_outcome = Tree{1} << 31U;
+  // A result: a control, or a place in `noted_`.
+  static constexpr Tree is_result = Tree{1} << 31U;
   static constexpr Tree is_noted = Tree{1} << 30U;
   static constexpr Tree is_accepted = Tree{1} << 29U;
   static constexpr Tree no_control = is_accepted - 1;
@@ -93,15 +96,15 @@ class Controls {
     return {static_cast<std::size_t>(loaded_) * system_.actions().size() + action, 0, true};
   }
   [[nodiscard]] Tree& at(const Place& place) {
-    return place.is_root ? roots_[place.number] : questions_[place.number].answers[place.answer];
+    return place.is_root ? roots_[place.number] : branches_[place.number].answers[place.answer];
   }
-  [[nodiscard]] Tree tree_of(const Outcome& outcome);
-  [[nodiscard]] Outcome outcome_of(Tree tree) const {
+  [[nodiscard]] Tree tree_of(const NumberedResult& result);
+  [[nodiscard]] NumberedResult result_of(Tree tree) const {
     const Tree number = tree & no_control;
     if ((tree & is_noted) != 0) return noted_[number];
     return {number == no_control ? none : number, (tree & is_accepted) != 0, 0};
   }
-  [[nodiscard]] Outcome numbered(const ControlSystem::Outcome& outcome);
+  [[nodiscard]] NumberedResult numbered(const ControlSystem::MoveResult& result);
   void explore(std::uint32_t action, const std::vector<std::uint8_t>& environment);
 
   template <typename Take>
@@ -112,11 +115,11 @@ class Controls {
       explore(action, string_);
     }
     const Tree tree = at(place);
-    if ((tree & is_outcome) != 0) {
-      take(outcome_of(tree), set);
+    if ((tree & is_result) != 0) {
+      take(result_of(tree), set);
       return;
     }
-    const Set asked = questions_[tree].asked;
+    const Set asked = branches_[tree].asked;
     const Set yes = sets.both(set, asked);
     if (yes != Diagrams::empty) walk({tree, 1, false}, action, yes, take);
     if (yes == set) return;
@@ -128,8 +131,8 @@ class Controls {
   StateStore store_;
   Number loaded_ = none;
   std::vector<Tree> roots_;  ///< by control and action
-  std::vector<Question> questions_;
-  std::vector<Outcome> noted_;
+  std::vector<Branch> branches_;
+  std::vector<NumberedResult> noted_;
   std::uint64_t regions_ = 0;
   std::vector<Set> known_;  ///< what was asked in the present environment
   std::vector<std::uint8_t> string_;

@@ -138,7 +138,7 @@ void Environments::find_never() {
 
 // Moves.
 
-std::vector<Environments::Effect> Environments::effects_of(const Model::Choice& choice) {
+std::vector<Environments::ActionEffect> Environments::effects_of(const Model::Choice& choice) {
   const std::uint32_t subject = choice.subject;
   switch (choice.move.kind) {
     case Move::Kind::variable: {
@@ -148,7 +148,7 @@ std::vector<Environments::Effect> Environments::effects_of(const Model::Choice& 
     }
     case Move::Kind::own: {
       const std::uint32_t bit = bits_.own[subject];
-      std::vector<Effect> effects;
+      std::vector<ActionEffect> effects;
       for (const bool is_denied : {false, true}) {
         Move move = choice.move;
         move.choice = is_denied ? 0 : 1;
@@ -159,7 +159,7 @@ std::vector<Environments::Effect> Environments::effects_of(const Model::Choice& 
     case Move::Kind::together:
       return {joint_change(choice.move, model_.joint_changes()[subject])};
     default: {
-      Effect effect;
+      ActionEffect effect;
       effect.move = choice.move;
       if (choice.move.kind == Move::Kind::situation_change) effect.condition = denied(subject);
       return {effect};
@@ -167,9 +167,9 @@ std::vector<Environments::Effect> Environments::effects_of(const Model::Choice& 
   }
 }
 
-Environments::Effect Environments::change(const Move& move, Set condition,
-                                          Diagrams::Values values) {
-  Effect effect;
+Environments::ActionEffect Environments::change(const Move& move, Set condition,
+                                                Diagrams::Values values) {
+  ActionEffect effect;
   effect.move = move;
   effect.condition = condition;
   effect.changes = true;
@@ -181,8 +181,8 @@ Environments::Effect Environments::change(const Move& move, Set condition,
 }
 
 /// It exists where at least two of the variables have other values.
-Environments::Effect Environments::joint_change(const Move& move,
-                                                const Model::JointChange& change_of) {
+Environments::ActionEffect Environments::joint_change(const Move& move,
+                                                      const Model::JointChange& change_of) {
   Set none_differs = Diagrams::all;
   Set one_differs = Diagrams::empty;
   Diagrams::Values all_values;
@@ -200,11 +200,11 @@ Environments::Effect Environments::joint_change(const Move& move,
                 std::move(all_values));
 }
 
-Environments::Set Environments::after_to_before(const Effect& effect, Set set) {
+Environments::Set Environments::after_to_before(const ActionEffect& effect, Set set) {
   return effect.changes ? sets_.before_change(set, effect.values) : set;
 }
 
-Environments::Table& Environments::table_of(const Effect& effect) {
+Environments::Table& Environments::table_of(const ActionEffect& effect) {
   Table& table = tables_[effect.table];
   if (std::exchange(table.is_known, true)) return table;
   const std::size_t behaviors = model_.behaviors().size();
@@ -220,7 +220,7 @@ Environments::Table& Environments::table_of(const Effect& effect) {
   return table;
 }
 
-Environments::Set Environments::query(const Effect& effect, EnvironmentQuery query) {
+Environments::Set Environments::query(const ActionEffect& effect, EnvironmentQuery query) {
   using Kind = EnvironmentQuery::Kind;
   const std::uint32_t subject = query.subject;
   switch (query.kind) {
@@ -236,7 +236,7 @@ Environments::Set Environments::query(const Effect& effect, EnvironmentQuery que
   return Diagrams::empty;
 }
 
-const Stepper::Possible& Environments::possible_after(const Effect& effect) {
+const Stepper::Possible& Environments::possible_after(const ActionEffect& effect) {
   return table_of(effect).possible;
 }
 

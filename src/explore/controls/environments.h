@@ -29,8 +29,9 @@ struct EnvironmentBits {
 [[nodiscard]] EnvironmentBits bits_of(const Model& model, bool has_mark);
 
 /// Sets of environments of a model: of values of its variables, answers of check_situation and
-/// faults, as decision diagrams; and what is asked about them after moves. The model and the
-/// diagrams must outlive it. Not for use by several threads.
+/// faults, as decision diagrams. Moves ask about the environment that they lead to, so each
+/// question becomes the set of environments before the move in which the answer is yes. The model
+/// and the diagrams must outlive it. Not for use by several threads.
 class Environments {
  public:
   using Set = Diagrams::Set;
@@ -52,7 +53,7 @@ class Environments {
   [[nodiscard]] Set with_value(std::uint32_t variable, std::uint32_t value);
 
   /// What a move does to environments.
-  struct Effect {
+  struct ActionEffect {
     Move move;                       ///< as it is in these environments
     Set condition = Diagrams::all;   ///< in which ones the move exists,
     Set excluded = Diagrams::empty;  ///< unless it leads to where `never` excludes
@@ -60,13 +61,14 @@ class Environments {
     Diagrams::ValuesNumber values = 0;
     std::uint32_t table = 0;  ///< the same for all without a change
   };
-  /// Of a move but for faults and repairs. Whether own(b) becomes true or false are two. The sets
+  /// The effects of a move that is no fault and no repair. Whether own(b) becomes true or false are
+  /// two. The sets
   /// are not kept.
-  [[nodiscard]] std::vector<Effect> effects_of(const Model::Choice& choice);
+  [[nodiscard]] std::vector<ActionEffect> effects_of(const Model::Choice& choice);
   /// The environments before a move with this effect in which the answer is yes after it; see
   /// EnvironmentOracle.
-  [[nodiscard]] Set query(const Effect& effect, EnvironmentQuery query);
-  [[nodiscard]] const Stepper::Possible& possible_after(const Effect& effect);
+  [[nodiscard]] Set query(const ActionEffect& effect, EnvironmentQuery query);
+  [[nodiscard]] const Stepper::Possible& possible_after(const ActionEffect& effect);
 
   /// What must survive Diagrams::collect().
   template <typename Keep>
@@ -91,10 +93,10 @@ class Environments {
   [[nodiscard]] Set with_code(std::uint32_t variable, std::uint32_t code);
   void find_conditions();
   void find_never();
-  [[nodiscard]] Effect change(const Move& move, Set condition, Diagrams::Values values);
-  [[nodiscard]] Effect joint_change(const Move& move, const Model::JointChange& change);
-  [[nodiscard]] Table& table_of(const Effect& effect);
-  [[nodiscard]] Set after_to_before(const Effect& effect, Set set);
+  [[nodiscard]] ActionEffect change(const Move& move, Set condition, Diagrams::Values values);
+  [[nodiscard]] ActionEffect joint_change(const Move& move, const Model::JointChange& change);
+  [[nodiscard]] Table& table_of(const ActionEffect& effect);
+  [[nodiscard]] Set after_to_before(const ActionEffect& effect, Set set);
 
   const Model& model_;
   const EnvironmentBits bits_;

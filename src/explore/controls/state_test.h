@@ -11,8 +11,8 @@
 
 namespace cbc {
 
-/// A condition on the states of a model: asked for one control, it answers in which environments it
-/// holds.
+/// A condition on the states of a model. It is asked once for all states of a control, and answers
+/// in which environments it holds.
 class StateTest {
  public:
   using Set = Environments::Set;

@@ -77,9 +77,9 @@ Timeline follow(CatalogSystem& system, const std::vector<Move>& path) {
     const ControlSystem::StateMove* const made = find_move(system, move, environment);
     add_point(made != nullptr && move.kind == Move::Kind::due);
     if (made == nullptr) continue;
-    const ControlSystem::Outcome outcome = system.make(*made, environment);
+    const ControlSystem::MoveResult result = system.make(*made, environment);
     system.change(*made, environment);
-    control.assign(outcome.control, outcome.control + control.size());
+    control.assign(result.control, result.control + control.size());
     for (std::uint32_t reactive = 0; reactive < layout.reactive_count; ++reactive) {
       if (system.stepper().has_joined(reactive)) joined[reactive] = timeline.is_due.size() - 1;
     }

@@ -38,9 +38,9 @@ struct Witness {
                                    const Assumptions& assumptions, const std::vector<Move>& moves,
                                    const Property* property, const std::string& comment);
 
-/// The same moves, without expectations, on one step each, timeouts being off: a move of the queue
-/// is an empty expectation at the time of the next move, and so is a step more at the end. `pause`:
-/// between two moves where nothing is in the queue.
+/// Moves as a script without expectations, one step for each, timeouts being off: a move of the
+/// queue is an empty expectation at the time of the next move, and so is a step more at the end.
+/// `pause`: between two moves where nothing is in the queue.
 [[nodiscard]] Script make_script(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
                                  const Assumptions& assumptions, const std::vector<Move>& moves,
                                  Microseconds pause);

@@ -56,6 +56,8 @@ struct BitRange {
   [[nodiscard]] std::uint32_t size() const { return end - begin; }
 };
 
+/// Numbers that follow one another make sets of tasks and values short strings of bits, and states
+/// a few words: an exploration goes through millions of them.
 class Model {
  public:
   /// A priority is counted by its rank among those that occur; that of reactive starts is 0.

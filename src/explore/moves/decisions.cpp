@@ -28,7 +28,7 @@ Decisions::Decisions(const Model& model, const CompiledCatalog& catalog, std::si
       key_(key_words_),
       slots_(1024, 0) {}
 
-const Word* Decisions::find(const Question& question) {
+const Word* Decisions::find(const GroupQuestion& question) {
   const auto answer_of = [&](const Word* entry) {
     const Word* const memory = entry + key_words_;
     return *memory == infeasible ? nullptr : memory + 1;
@@ -58,7 +58,7 @@ const Word* Decisions::find(const Question& question) {
   return answer_of(remember(is_solved ? solved : infeasible));
 }
 
-bool Decisions::satisfies_all(const Question& question) const {
+bool Decisions::satisfies_all(const GroupQuestion& question) const {
   const std::uint32_t first = model_.groups()[question.group].tasks.begin;
   return std::all_of(question.requests.begin(), question.requests.end(),
                      [&](std::uint16_t task) { return solution_[task - first] != none; });
@@ -98,7 +98,7 @@ const Word* Decisions::remember(Memory memory) {
   return entry;
 }
 
-void Decisions::write_key(const Question& question, bool is_ordered) {
+void Decisions::write_key(const GroupQuestion& question, bool is_ordered) {
   Word* next = key_.data();
   *next++ = (Word{question.group} << 32U) | question.finished;
   next = std::copy_n(question.domains, value_words_, next);
@@ -158,7 +158,7 @@ void Decisions::forget() {
   std::fill(slots_.begin(), slots_.end(), 0);
 }
 
-void Decisions::load_problem(const Question& question) {
+void Decisions::load_problem(const GroupQuestion& question) {
   const CompiledCatalog& catalog = model_.catalog();
   const Model::Group& group = model_.groups()[question.group];
   const TaskId first = catalog.group_tasks[group.number];

@@ -16,7 +16,7 @@ namespace cbc {
 
 /// What the answer of one event in one group depends on, and nothing else. Bit sets are those of
 /// the model; only bits of the group are set.
-struct Question {
+struct GroupQuestion {
   std::uint32_t group = 0;                  ///< place in Model::groups
   std::uint32_t finished = none;            ///< the behavior that has just finished
   const Word* domains = nullptr;            ///< values
@@ -28,9 +28,10 @@ struct Question {
 /// Told of each question that the solver was asked, and of its answer; null: there is none.
 using DecisionListener = std::function<void(const Problem& problem, const Assignment* answer)>;
 
-/// Answers questions, and remembers the answers, so that a question that was answered once is
-/// looked up. Where all requests are satisfied, or there is no solution, their order decides
-/// nothing: such an answer holds for all orders. Not for use by several threads.
+/// Answers questions, and remembers the answers: the moves of an exploration ask few different
+/// ones, so almost all are looked up. Where all requests are satisfied, or there is no solution,
+/// their order decides nothing: such an answer holds for all orders. Not for use by several
+/// threads.
 class Decisions {
  public:
   /// Beyond `most_bytes` of answers, all are forgotten. `listener` may be empty.
@@ -45,7 +46,7 @@ class Decisions {
   Decisions& operator=(const Decisions&) = delete;
 
   /// The values of the best solution; null: there is none. Valid until the next call.
-  [[nodiscard]] const Word* find(const Question& question);
+  [[nodiscard]] const Word* find(const GroupQuestion& question);
 
   [[nodiscard]] std::uint64_t remembered() const { return remembered_; }
   [[nodiscard]] std::uint64_t computed() const { return computed_; }
@@ -55,14 +56,14 @@ class Decisions {
   /// order of the requests.
   enum Memory : Word { infeasible, solved, ordered };
 
-  void write_key(const Question& question, bool is_ordered);
+  void write_key(const GroupQuestion& question, bool is_ordered);
   void sort_by_class();
   [[nodiscard]] std::uint64_t hash() const;
   /// The entry of the key, or null; and the slot where it is or belongs.
   [[nodiscard]] const Word* look_up(std::uint64_t hash, std::size_t& slot) const;
   const Word* remember(Memory memory);
-  [[nodiscard]] bool satisfies_all(const Question& question) const;
-  void load_problem(const Question& question);
+  [[nodiscard]] bool satisfies_all(const GroupQuestion& question) const;
+  void load_problem(const GroupQuestion& question);
   void grow();
   void forget();
 

@@ -5,7 +5,8 @@
 
 namespace cbc {
 
-/// Whether a move is of one of the kinds, and is about one of their tasks.
+/// Whether a move counts for a property that names the moves by which something is possible: it is
+/// of one of the kinds, and about one of their tasks.
 [[nodiscard]] bool is_of_kinds(const MoveKinds& kinds, const Model::Choice& choice,
                                const Model& model);
 

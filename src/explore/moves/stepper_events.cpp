@@ -162,7 +162,7 @@ const Word* Stepper::ask(Decisions& decisions, const Trigger& trigger, Model::Ra
   }
   if (trigger.kind == Trigger::Kind::start) set_bit(must_run_.data(), trigger.task);
 
-  Question question;
+  GroupQuestion question;
   question.group = trigger.group;
   question.finished = trigger.behavior;
   question.domains = domains_.data();

@@ -65,9 +65,10 @@ class PropertyVisitor {
     for (const auto& property : properties_) property->on_refusal(action, states, depth_);
   }
 
-  void on_outcome(std::uint32_t action, const States& states, Controls::Outcome outcome) const {
+  void on_result(std::uint32_t action, const States& states,
+                 Controls::NumberedResult result) const {
     for (PropertyTest* const property : of_moves_) {
-      property->on_outcome(action, states, outcome, depth_);
+      property->on_result(action, states, result, depth_);
     }
   }
 

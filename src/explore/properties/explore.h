@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,8 +15,10 @@
 
 namespace cbc {
 
-// What holds in all reachable states of some groups (docs/verify.md, "States").
+// What holds in all reachable states of some groups (docs/verify.md, "States"): one exploration
+// decides several properties, and counts what tasks and behaviors it has seen.
 
+/// How to explore, and what else to look for.
 struct ExplorationOptions {
   Budget budget;      ///< of each exploration
   unsigned jobs = 1;  ///< threads
@@ -68,7 +69,7 @@ struct Exploration {
   std::vector<Verdict> verdicts;  ///< in the order of the properties
   /// See Model::find_obstacle(); then nothing was explored.
   std::optional<std::string> error;
-  /// Of start, stop and finish events: how many answers were looked up, how many computed.
+  /// How many answers to starts, stops and finishes were looked up, and how many computed.
   std::uint64_t decisions_remembered = 0;
   std::uint64_t decisions_computed = 0;
   std::uint64_t controls = 0;

@@ -32,8 +32,8 @@ void PropertyTest::visit(const States& states, std::uint32_t /*depth*/) {
 void PropertyTest::on_refusal(std::uint32_t /*action*/, const States& /*states*/,
                               std::uint32_t /*depth*/) {}
 
-void PropertyTest::on_outcome(std::uint32_t /*action*/, const States& /*states*/,
-                              Controls::Outcome /*outcome*/, std::uint32_t /*depth*/) {}
+void PropertyTest::on_result(std::uint32_t /*action*/, const States& /*states*/,
+                             Controls::NumberedResult /*result*/, std::uint32_t /*depth*/) {}
 
 Set PropertyTest::counted(const States& states) {
   if (property_.settled && !control().is_settled()) return Diagrams::empty;
@@ -130,10 +130,10 @@ class KeepTest final : public PropertyTest {
       : PropertyTest(property, system, part), task_(model_.find_task(property.task)) {}
 
   [[nodiscard]] bool looks_at_moves() const override { return true; }
-  void on_outcome(std::uint32_t action, const States& states, Controls::Outcome outcome,
-                  std::uint32_t depth) override {
+  void on_result(std::uint32_t action, const States& states, Controls::NumberedResult result,
+                 std::uint32_t depth) override {
     if (!may_not_end(property_, task_, system_, action)) return;
-    if (system_.runs_in(part_.controls().packed(outcome.control), task_)) return;
+    if (system_.runs_in(part_.controls().packed(result.control), task_)) return;
     note({states.control, counted(states)}, depth);
   }
 

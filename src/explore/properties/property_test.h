@@ -45,9 +45,9 @@ class PropertyTest {
   virtual void visit(const States& states, std::uint32_t depth);
   /// A start of a task that does not run is rejected.
   virtual void on_refusal(std::uint32_t action, const States& states, std::uint32_t depth);
-  virtual void on_outcome(std::uint32_t action, const States& states, Controls::Outcome outcome,
-                          std::uint32_t depth);
-  /// Whether on_outcome() is to be called.
+  virtual void on_result(std::uint32_t action, const States& states,
+                         Controls::NumberedResult result, std::uint32_t depth);
+  /// Whether on_result() is to be called.
   [[nodiscard]] virtual bool looks_at_moves() const { return false; }
 
   /// The states that decide it. All of a depth in the part are known once its layer was visited,

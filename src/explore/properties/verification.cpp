@@ -134,7 +134,7 @@ std::string title_of(const CompiledCatalog& catalog, const PropertyFile& file,
 }
 
 void add_script(const CompiledCatalog& catalog, const PropertyFile& file,
-                const std::vector<GroupId>& groups, Answer& answer) {
+                const std::vector<GroupId>& groups, PropertyAnswer& answer) {
   const bool is_witness = answer.verdict.result == Verdict::Result::proved;
   const std::string comment = fmt::format("{}: {}\nRun it with: cbc solve CATALOG FILE\n",
                                           is_witness ? "Witness" : "Counterexample",
@@ -165,7 +165,7 @@ Verification verify_properties(const CompiledCatalog& catalog, const PropertyFil
   for (std::size_t place = 0; place < file.properties.size(); ++place) {
     const Property* property = &file.properties[place];
     const PropertyScope scope = scope_of(catalog, *property);
-    Answer& answer = result.answers[place];
+    PropertyAnswer& answer = result.answers[place];
     answer.property = property;
     if (is_proved_by_constraints(catalog, scope.groups, file.assumptions, *property)) {
       answer.verdict.result = Verdict::Result::proved;
@@ -186,7 +186,7 @@ Verification verify_properties(const CompiledCatalog& catalog, const PropertyFil
     const ExplorationTask& task = tasks[explored];
     for (std::size_t number = 0; number < task.places.size(); ++number) {
       const Verdict& verdict = result.explorations[explored].verdicts[number];
-      Answer& answer = result.answers[task.places[number]];
+      PropertyAnswer& answer = result.answers[task.places[number]];
       if (answer.verdict.by_constraints) {
         answer.verdict.is_vacuous = verdict.result == Verdict::Result::violated;
         continue;

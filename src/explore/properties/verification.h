@@ -17,7 +17,7 @@
 namespace cbc {
 
 /// What was found out about one property.
-struct Answer {
+struct PropertyAnswer {
   const Property* property = nullptr;
   /// Place in Verification::explorations; nothing: the constraints alone decided it.
   std::optional<std::size_t> exploration;
@@ -30,7 +30,7 @@ struct Answer {
 struct Verification {
   const PropertyFile* file = nullptr;  ///< null: default assumptions, no properties
   std::vector<Exploration> explorations;
-  std::vector<Answer> answers;  ///< in the order of the file
+  std::vector<PropertyAnswer> answers;  ///< in the order of the file
 
   [[nodiscard]] bool is_complete() const;
 };

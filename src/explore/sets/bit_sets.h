@@ -6,7 +6,8 @@
 
 namespace cbc {
 
-// Sets of small numbers as arrays of words, whose lengths the user knows.
+// Sets of small numbers as arrays of words, whose lengths the user knows: parts of larger arrays
+// can be sets, too.
 
 using Word = std::uint64_t;
 

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -15,7 +14,8 @@ namespace cbc {
 /// Sets of bit strings of one length, as reduced ordered binary decision diagrams (R. E. Bryant,
 /// "Graph-based algorithms for Boolean function manipulation", IEEE Transactions on Computers C-35
 /// (1986)), but that the last bits, the tail, of which few are ones, are decided at once. Equal
-/// sets are the same number. Each node knows the size of its set. Not for use by several threads.
+/// sets are the same number. Each node knows the size of its set. So an exploration keeps millions
+/// of environments of a control as one number. Not for use by several threads.
 class Diagrams {
  public:
   using Set = std::uint32_t;

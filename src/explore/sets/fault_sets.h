@@ -7,9 +7,10 @@
 
 namespace cbc {
 
-/// What faults and repairs do to sets of environments. Faults are the last bits of a string, and
-/// come in kinds: the repairs of a kind do the same to a control. The diagrams must outlive it. Not
-/// for use by several threads.
+/// What faults and repairs do to sets of environments. There may be as many as there are behaviors,
+/// but they do little to a control, so all faults of a set are one operation, and so are all
+/// repairs of a kind: those that do the same to a control. Faults are the last bits of a string.
+/// The diagrams must outlive it. Not for use by several threads.
 class FaultSets {
  public:
   using Set = Diagrams::Set;
@@ -27,7 +28,7 @@ class FaultSets {
 
   /// The environments that come of a fault, where one more may come.
   [[nodiscard]] Set after_fault(Set set);
-  /// Those that come of a repair of a kind.
+  /// The environments that come of a repair of a kind.
   [[nodiscard]] Set after_repair(std::uint32_t kind, Set set);
   [[nodiscard]] Set before_fault(Set set);
   [[nodiscard]] Set before_repair(std::uint32_t kind, Set set);

@@ -10,7 +10,8 @@
 namespace cbc {
 
 /// The bit strings of one length with at most so many ones, numbered from 0, the one without ones;
-/// and sets of them as rows of words, with a bit for each string.
+/// and sets of them as rows of words, with a bit for each string. Diagrams end in such rows, since
+/// few behaviors are faulty at a time.
 class SparseStrings {
  public:
   /// There must be less than 2^32 of them; see count().

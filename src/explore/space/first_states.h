@@ -6,8 +6,8 @@
 
 namespace cbc {
 
-/// Those states of a part of which something is noted that have the least depth. The part, which
-/// keeps them, must outlive it.
+/// The states of a part in which something was seen first, of least depth: a path to one of them is
+/// the shortest script that shows it. The part, which keeps them, must outlive it.
 class FirstStates {
  public:
   static constexpr std::uint32_t never = UINT32_MAX;

@@ -190,8 +190,8 @@ Set StatePart::sources_in(const States& all, const Layer& wanted, const MoveSele
     if (selection != nullptr && selection->actions[action] == 0) continue;
     const Set set = sets.both(all.environments, made.condition);
     if (set == Diagrams::empty) continue;
-    controls_.for_each_outcome(action, set, [&](Controls::Outcome outcome, Set part) {
-      const Set after = environments_in(wanted, outcome.control);
+    controls_.for_each_result(action, set, [&](Controls::NumberedResult result, Set part) {
+      const Set after = environments_in(wanted, result.control);
       if (after == Diagrams::empty) return;
       found = sets.either(found, sets.both(part, system_->before(made, after)));
     });

@@ -9,7 +9,7 @@
 
 namespace cbc {
 
-/// Some moves of a system.
+/// The moves of a system that count where goals are looked for by going backward.
 struct MoveSelection {
   std::vector<std::uint8_t> actions;  ///< by action
   bool has_fault = false;
@@ -76,7 +76,7 @@ class StatePart {
     return controls_.hash(packed) / 64 % count_;
   }
   [[nodiscard]] Parcel pack(const Layer& layer);
-  /// Those states of parcels of all parts whose controls are known here.
+  /// The states of parcels of all parts whose controls are known here.
   [[nodiscard]] Layer unpack(const std::vector<Parcel>& parcels);
   /// Of the part's own states, for each control those that `here` returns, the states with a move
   /// of the selection (null: all) to some of the layer, of which the mark is still that of the
@@ -151,14 +151,14 @@ bool StatePart::make_moves_of(const States& states, Visitor& visitor, MayGoOn& m
     const Set set = sets.both(states.environments, made.condition);
     if (set == Diagrams::empty) continue;
     if (made.is_move) transitions_ += sets.count(set);
-    controls_.for_each_outcome(action, set, [&](Controls::Outcome outcome, Set part) {
+    controls_.for_each_result(action, set, [&](Controls::NumberedResult result, Set part) {
       const States from{states.control, part};
-      if (outcome.note != 0) visitor.on_note(outcome.note, from);
-      if (made.is_start && !outcome.accepted) visitor.on_refusal(action, from);
-      if (outcome.control == none) return;
-      visitor.on_outcome(action, from, outcome);
-      const bool changes = made.changes || outcome.control != states.control;
-      if (changes) add(outcome.control, system_->after(made, part));
+      if (result.note != 0) visitor.on_note(result.note, from);
+      if (made.is_start && !result.accepted) visitor.on_refusal(action, from);
+      if (result.control == none) return;
+      visitor.on_result(action, from, result);
+      const bool changes = made.changes || result.control != states.control;
+      if (changes) add(result.control, system_->after(made, part));
     });
     if (!may_go_on()) return false;
   }
@@ -171,13 +171,13 @@ void StatePart::add_faults(const States& states, Visitor& visitor) {
   FaultSets& faults = system_->faults();
   if (faults.count() == 0) return;
   transitions_ += faults.count_moves(states.environments);
-  const auto take = [&](const Controls::Outcome& outcome, Set after, const auto& before) {
+  const auto take = [&](const Controls::NumberedResult& result, Set after, const auto& before) {
     if (after == Diagrams::empty) return;
-    if (outcome.note != 0) {
-      visitor.on_note(outcome.note,
+    if (result.note != 0) {
+      visitor.on_note(result.note,
                       {states.control, system_->sets().both(states.environments, before())});
     }
-    if (outcome.control != none) add(outcome.control, after);
+    if (result.control != none) add(result.control, after);
   };
   take(controls_.after_fault(), faults.after_fault(states.environments),
        [&] { return faults.before_fault(Diagrams::all); });

@@ -199,8 +199,8 @@ StateSpace::Path StateSpace::path_to(const std::vector<const FirstStates*>& note
   const auto& moves = parts_.front()->system().moves();
   for (std::uint32_t after = 1; after <= depth; ++after) {
     for (std::size_t place = 0; place < moves.size(); ++place) {
-      const auto outcome = path.end.try_move(place);
-      if (!outcome || outcome->control == none || !leads_to(path.end, wanted[after])) continue;
+      const auto result = path.end.try_move(place);
+      if (!result || result->control == none || !leads_to(path.end, wanted[after])) continue;
       path.moves.push_back(moves[place].move);
       path.places.push_back(place);
       path.end.go_on();

@@ -39,7 +39,7 @@ class StateSpace {
   /// Visits all states; once. There is a visitor for each part, which has
   ///   visit(states, depth)   new states, whose control is loaded
   ///   on_refusal(action, states)   some of them, in which a start is rejected
-  ///   on_outcome(action, states, outcome)   some of them, and what a move makes of their control;
+  ///   on_result(action, states, result)   some of them, and what a move makes of their control;
   ///     not of faults and repairs
   ///   on_note(note, states)   some of them, and what the system says of a move
   /// `is_done()` returns whether all is known that is looked for, so that the run may end.

@@ -3,13 +3,13 @@
 namespace cbc {
 
 StateWalker::StateWalker(StatePart& part) : part_(&part) {
-  outcome_.control = part.controls().find(part.system().first_control().data());
+  result_.control = part.controls().find(part.system().first_control().data());
   after_ = part.system().first_environment();
   go_on();
 }
 
 void StateWalker::go_on() {
-  control_ = outcome_.control;
+  control_ = result_.control;
   environment_ = after_;
   load();
   part_->system().set_mark(environment_);
@@ -21,7 +21,7 @@ void StateWalker::go_to(Controls::Number control, const std::vector<std::uint8_t
   load();
 }
 
-std::optional<Controls::Outcome> StateWalker::try_move(std::size_t place) {
+std::optional<Controls::NumberedResult> StateWalker::try_move(std::size_t place) {
   ControlSystem& system = part_->system();
   const ControlSystem::StateMove& move = system.moves()[place];
   load();
@@ -30,13 +30,13 @@ std::optional<Controls::Outcome> StateWalker::try_move(std::size_t place) {
   system.change(move, after_);
   Controls& controls = part_->controls();
   if (move.fault == none) {
-    outcome_ = controls.outcome_in(move.action, environment_);
+    result_ = controls.result_in(move.action, environment_);
   } else if (move.move.kind == Move::Kind::repair) {
-    outcome_ = controls.after_repair(system.faults().kind_of(move.fault));
+    result_ = controls.after_repair(system.faults().kind_of(move.fault));
   } else {
-    outcome_ = controls.after_fault();
+    result_ = controls.after_fault();
   }
-  return outcome_;
+  return result_;
 }
 
 }  // namespace cbc

@@ -24,10 +24,10 @@ class StateWalker {
 
   /// Makes a move from the state, by its place in ControlSystem::moves(). Nothing: the state does
   /// not have it.
-  [[nodiscard]] std::optional<Controls::Outcome> try_move(std::size_t place);
+  [[nodiscard]] std::optional<Controls::NumberedResult> try_move(std::size_t place);
   // What the move led to, if it led anywhere.
   [[nodiscard]] const std::uint32_t* control_after() const {
-    return part_->controls().packed(outcome_.control);
+    return part_->controls().packed(result_.control);
   }
   /// Its mark is still that of the state before.
   [[nodiscard]] const std::vector<std::uint8_t>& environment_after() const { return after_; }
@@ -38,7 +38,7 @@ class StateWalker {
   StatePart* part_;
   Controls::Number control_ = none;
   std::vector<std::uint8_t> environment_;
-  Controls::Outcome outcome_;
+  Controls::NumberedResult result_;
   std::vector<std::uint8_t> after_;
 };
 

@@ -45,8 +45,8 @@ enum class Mark : std::uint8_t {
 /// its presence, not its changes.
 [[nodiscard]] Mark presence_of(Mark mark);
 
-/// The same, but keeps marks of a state, too: a behavior in use for one task may be of no use to
-/// another one that it could perform.
+/// The presence, but keeps marks of a state, too: a behavior in use for one task may be of no use
+/// to another one that it could perform.
 [[nodiscard]] Mark use_of(Mark mark);
 
 /// The mark of what exists through both. Empty: neither of two catalogs has both. In a state, it is
@@ -111,10 +111,10 @@ struct CatalogGraph {
   GrowingRows<std::uint32_t> exclusions_of_task;
 };
 
-/// `catalog` must outlive the result.
+/// The graph of a compiled catalog, which must outlive it.
 [[nodiscard]] CatalogGraph to_graph(const CompiledCatalog& catalog);
 
-/// The same for a catalog that may have errors. What an error among the findings points at is
+/// The graph of a catalog that may have errors. What an error among the findings points at is
 /// faulty, and so is everything on a cycle. `reading` must outlive the result.
 [[nodiscard]] CatalogGraph to_graph(const CatalogReading& reading,
                                     const std::vector<Diagnostic>& findings);

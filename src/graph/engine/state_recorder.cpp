@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/support/json.h"
 #include "core/words/words.h"
 
 namespace cbc {

@@ -19,7 +19,7 @@ struct WantedState {
   std::optional<Microseconds> time;
 };
 
-/// Records the selected state of a run.
+/// Records the selected state of a run, for a picture of it.
 class StateRecorder final : public RunListener {
  public:
   /// `catalog` must outlive this object.

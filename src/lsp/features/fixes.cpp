@@ -9,7 +9,7 @@
 #include "core/catalog/older_format.h"
 #include "core/catalog/renaming.h"
 #include "core/check/check.h"
-#include "core/check/controls.h"
+#include "core/check/severity_settings.h"
 #include "core/diagnostic/rules.h"
 #include "core/yaml/source.h"
 #include "lsp/features/features.h"

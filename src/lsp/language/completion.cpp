@@ -1,7 +1,6 @@
 #include "lsp/language/completion.h"
 
 #include <algorithm>
-#include <optional>
 #include <string_view>
 #include <utility>
 

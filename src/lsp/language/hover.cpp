@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
 #include <set>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "core/check/check.h"
-#include "core/check/controls.h"
+#include "core/check/severity_settings.h"
 #include "core/files/file_set.h"
 
 namespace cbc::lsp {

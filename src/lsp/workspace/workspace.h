@@ -2,18 +2,16 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/catalog/name_place.h"
 #include "core/check/check.h"
-#include "core/check/controls.h"
+#include "core/check/severity_settings.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/files/file_search.h"
 #include "core/files/file_set.h"

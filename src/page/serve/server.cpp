@@ -242,7 +242,7 @@ class Server::Loop::Connection : public std::enable_shared_from_this<Connection>
     const auto& request = parser_.get();
     const std::string_view target = view_of(request.target()).substr(loop_.site_.path.size());
     const std::size_t end = std::min(target.find('?'), target.size());
-    const Answer reply = loop_.site_.put(
+    const Reply reply = loop_.site_.put(
         target.substr(0, end), target.substr(std::min(end + 1, target.size())), request.body());
     send(head(reply.status, "application/json", length_of(reply.json)) + reply.json);
   }

@@ -46,8 +46,8 @@ inline constexpr const char* default_address = "127.0.0.1:8227";
 /// Texts that a page saves are at most this long, in bytes.
 inline constexpr std::size_t most_text = std::size_t{20} << 20;
 
-/// What the page is told of a text that it saves.
-struct Answer {
+/// The reply to a page that saves a text.
+struct Reply {
   const char* status;  ///< of HTTP: "200 OK"
   std::string json;
 };
@@ -69,7 +69,7 @@ class Server {
     const History* history = nullptr;
     std::string token;  ///< another one is that of another run
     /// Takes a text that the page puts at "NAME?QUERY", relative to itself; null: it puts none.
-    std::function<Answer(std::string_view name, std::string_view query, std::string_view text)> put;
+    std::function<Reply(std::string_view name, std::string_view query, std::string_view text)> put;
   };
 
   /// Listens at an address; port 0 is a free one. Returns the server, or null and why there is

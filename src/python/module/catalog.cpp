@@ -1,10 +1,7 @@
 #include "python/module/catalog.h"
 
-#include <algorithm>
-#include <optional>
 #include <utility>
 
-#include "core/check/check.h"
 #include "core/files/file_set.h"
 #include "core/files/recognition.h"
 #include "runtime/base/text.h"

@@ -1,8 +1,5 @@
 #include "python/module/explanations.h"
 
-#include <utility>
-#include <vector>
-
 #include "core/report/event_json.h"
 #include "core/script/repetition.h"
 #include "core/words/explanation_words.h"

@@ -4,7 +4,6 @@
 #include <memory>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "core/diagnostic/diagnostic.h"
 #include "core/report/event_json.h"

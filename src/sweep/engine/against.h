@@ -93,7 +93,7 @@ class SequenceComparison final : public EventListener {
   void on_time(Microseconds time, const State& new_state);
   /// The new catalog has handled the step.
   void on_step(const Step& step, const State& new_state);
-  /// Of the run of the old catalog.
+  /// How the run of the old catalog goes.
   [[nodiscard]] Coordinator::Status status() const { return status_; }
   [[nodiscard]] const std::string& internal_error() const { return run_->internal_error(); }
 

@@ -2,9 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "cbc/units.h"
@@ -77,7 +74,7 @@ class DrawnNames {
 
   [[nodiscard]] const std::vector<Name>& tasks() const { return tasks_; }
   [[nodiscard]] const std::vector<Name>& behaviors() const { return behaviors_; }
-  /// Those with at least two values.
+  /// The variables with at least two values.
   [[nodiscard]] const std::vector<Name>& variables() const { return variables_; }
   [[nodiscard]] const std::vector<Name>& values(std::uint32_t variable) const {
     return values_[variable];

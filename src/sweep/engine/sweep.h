@@ -11,6 +11,9 @@
 #include "sweep/engine/against.h"
 #include "sweep/engine/sequence.h"
 
+// What happens how often in random event sequences: estimates for catalogs of any size, where
+// `cbc verify` would have to visit all states.
+
 namespace cbc {
 
 /// The most expensive event of a sweep, in nodes or in time.

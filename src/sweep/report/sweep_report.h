@@ -2,7 +2,6 @@
 
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "core/report/blocks.h"
 #include "sweep/engine/sweep.h"

@@ -14,8 +14,9 @@
 
 namespace cbc {
 
-/// Answers recorded questions with another value of a number. The values of a task may be in
-/// another order than in the recorded catalog.
+/// Answers recorded questions with another value of a number, so that no mission has to run again
+/// to see whether it matters. The values of a task may be in another order than in the recorded
+/// catalog.
 class ChangedSolver {
  public:
   /// `catalog` has the other value already. All but `catalog` and `costs` must outlive the solver.

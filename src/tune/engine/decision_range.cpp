@@ -27,7 +27,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/compile/compile.h"
 #include "tune/engine/changed_solver.h"
 
 namespace cbc {

@@ -30,7 +30,8 @@ struct RecordedEvent {
   std::vector<ValueChange> moves;
 };
 
-/// Missions that were run on a catalog.
+/// Missions that were run on a catalog, with all that the solver was asked: what runs with other
+/// numbers are compared with.
 struct Recording {
   struct Failure {
     std::size_t mission = 0;
@@ -68,12 +69,14 @@ struct RunDifference {
   std::optional<EventRecord> now;
   std::vector<ValueChange> moves;             ///< how the behaviors after it differ
   std::optional<Recording::Failure> failure;  ///< the first one that is new
-  /// Of states in place of missions: how the first of these events is reached, which is the last
-  /// one of it; and the first property, by its place, that holds no more.
-  std::optional<Witness> path;
-  std::optional<std::size_t> broken_property;
+  /// The difference in a state that no mission need come to.
+  struct InState {
+    Witness path;  ///< to the first of these events, which is the last one of it
+    std::optional<std::size_t> broken_property;  ///< place of the first one that holds no more
+  };
+  std::optional<InState> in_state;
 };
-/// Of recordings of the same missions to the end.
+/// Where two recordings of the same missions, to the end, begin to differ.
 [[nodiscard]] std::optional<RunDifference> find_difference(const Recording& before,
                                                            const Recording& now);
 

@@ -18,7 +18,8 @@ struct SolvedProblem {
   std::optional<Assignment> answer;
 };
 
-/// Questions and answers, each once, in the order in which they came.
+/// Questions and answers, each once, in the order in which they came: as long as all answers stay,
+/// so does all that was decided.
 class SolvedProblems {
  public:
   /// `answer`: null: there is none.

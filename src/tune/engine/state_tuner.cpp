@@ -30,7 +30,7 @@ Answers find_answers(const CompiledCatalog& catalog, const PropertyFile& file,
   Answers answers;
   if (file.properties.empty()) return answers;
   const Verification verification = verify_properties(catalog, file, options);
-  for (const Answer& answer : verification.answers) {
+  for (const PropertyAnswer& answer : verification.answers) {
     answers.results.push_back(answer.verdict.result);
   }
   for (const Exploration& exploration : verification.explorations) {
@@ -131,7 +131,7 @@ RunDifference StateTuner::describe(const EventDifference& difference,
     result.before = before.events.front().back().record;
     result.now = now.events.front().back().record;
   }
-  result.path = difference.witness;
+  result.in_state.emplace(RunDifference::InState{difference.witness, {}});
   return result;
 }
 
@@ -143,7 +143,7 @@ void StateTuner::find_broken(const CompiledCatalog& changed, RunDifference& diff
   for (std::size_t place = 0; place < results_.size(); ++place) {
     if (results_[place] != Verdict::Result::proved) continue;
     if (answers.results[place] != Verdict::Result::violated) continue;
-    difference.broken_property = place;
+    difference.in_state->broken_property = place;
     return;
   }
 }

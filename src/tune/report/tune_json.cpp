@@ -62,11 +62,12 @@ constexpr auto difference = object(
     "difference", "The first event that is different beyond a bound.",
     member("mission", nullable(text), "The script. Null: of a state.",
            [](const RunDifference& of, const TuneResult& result) {
-             return of.path ? nullptr : &mission(of.mission, result);
+             return of.in_state ? nullptr : &mission(of.mission, result);
            }),
-    member("line", nullable(line_number),
-           "Of the event, or of the last one of the script before it; null: there is none.",
-           [](const RunDifference& of) { return of.line > 0 && !of.path ? &of.line : nullptr; }),
+    member(
+        "line", nullable(line_number),
+        "Of the event, or of the last one of the script before it; null: there is none.",
+        [](const RunDifference& of) { return of.line > 0 && !of.in_state ? &of.line : nullptr; }),
     member("event", integer(1), "Its number, counting all events.", &RunDifference::event),
     member(
         "instead", instead, "", [](const RunDifference& of) -> const auto& { return of; }),
@@ -76,13 +77,14 @@ constexpr auto difference = object(
              "With --all-states: a shortest way to the event, which is the last one of it, "
              "in words.",
              [](const RunDifference& of, const TuneResult& result) {
-               return of.path ? std::optional(moves_to(result, of)) : std::nullopt;
+               return of.in_state ? std::optional(moves_to(result, of)) : std::nullopt;
              }),
     optional("breaks", property,
              "With --all-states: the first property that holds now, and then no more.",
              [](const RunDifference& of, const TuneResult& result) {
-               return of.broken_property ? &result.states->file.properties[*of.broken_property]
-                                         : nullptr;
+               return of.in_state && of.in_state->broken_property
+                          ? &result.states->file.properties[*of.in_state->broken_property]
+                          : nullptr;
              }));
 
 constexpr auto repair = object(

@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
@@ -35,7 +34,7 @@ struct TuneResult {
   const Catalog& source;
   const CompiledCatalog& catalog;  ///< of the source
   const std::vector<TunableNumber>& numbers;
-  const Recording& present;           ///< of states an empty one
+  const Recording& present;           ///< of no missions, if all states were looked at
   std::vector<std::string> missions;  ///< their files
   std::vector<TunedNumber> tuned;     ///< by number
   std::optional<Millionths> fail_under;

@@ -8,7 +8,6 @@
 #include "core/support/wording.h"
 #include "core/words/explanation_words.h"
 #include "core/words/move_words.h"
-#include "core/words/words.h"
 #include "runtime/base/text.h"
 #include "tune/report/tune_report.h"
 #include "versions/runs/run_comparison.h"
@@ -47,24 +46,25 @@ std::string describe_instead(const TuneResult& result, const RunDifference& diff
 std::string describe_of_state(const TuneResult& result, const RunDifference& difference) {
   std::string text =
       join(moves_to(result, difference), ", then ") + ": " + describe_instead(result, difference);
-  if (!difference.broken_property) return text;
+  if (!difference.in_state->broken_property) return text;
   const PropertyFile& file = result.states->file;
   return text + fmt::format("; then the property in {}:{} does not hold", printable(file.path),
-                            file.properties[*difference.broken_property].line);
+                            file.properties[*difference.in_state->broken_property].line);
 }
 
 }  // namespace
 
 std::vector<std::string> moves_to(const TuneResult& result, const RunDifference& difference) {
   std::vector<std::string> moves;
-  if (const auto& path = difference.path) {
-    describe_moves(result.catalog, path->script, path->due, moves);
+  if (difference.in_state) {
+    const Witness& path = difference.in_state->path;
+    describe_moves(result.catalog, path.script, path.due, moves);
   }
   return moves;
 }
 
 std::string describe(const TuneResult& result, const RunDifference& difference) {
-  if (difference.path) return describe_of_state(result, difference);
+  if (difference.in_state) return describe_of_state(result, difference);
   const auto place = [&](std::size_t mission, std::uint32_t line) {
     const std::string file = printable(result.missions[mission]);
     return line == 0 ? file : fmt::format("{}:{}", file, line);

@@ -26,7 +26,6 @@
 #include <bit>
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <set>
 #include <span>
 #include <string_view>

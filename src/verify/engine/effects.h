@@ -1,7 +1,5 @@
 #pragma once
 
-#include <compare>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>

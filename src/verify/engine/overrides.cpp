@@ -4,7 +4,6 @@
 
 #include "verify/engine/overrides.h"
 
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>

@@ -45,7 +45,7 @@ struct Override {
 /// "same", "higher", "lower".
 [[nodiscard]] std::string_view name_of(PriorityOfSecond priority);
 
-/// Of each ordered pair of some tasks.
+/// What becomes of each ordered pair of some tasks.
 struct OverrideMatrix {
   using Cell = std::array<Override, priorities_of_second>;  ///< by PriorityOfSecond
 

@@ -1,9 +1,7 @@
 // What events can come to, for people.
 
-#include <algorithm>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>

@@ -27,7 +27,7 @@ Diagnostic finding_of(std::string_view rule, std::string_view file, std::string 
 
 TestCase case_of(const VerifyResult& result, const VerifyPart& part,
                  const ReportedAnswer& reported) {
-  const Answer& answer = *reported.answer;
+  const PropertyAnswer& answer = *reported.answer;
   const Property& property = *answer.property;
   const Range place = place_of_line(property.line);
   const std::string title = title_of(*result.catalog, property);
@@ -163,7 +163,7 @@ std::string verify_to_html(const VerifyResult& result) {
   std::vector<PropertyOfPage> properties;
   for (const VerifyPart& part : result.parts) {
     for (const ReportedAnswer& reported : part.answers) {
-      const Answer& answer = *reported.answer;
+      const PropertyAnswer& answer = *reported.answer;
       const Property& property = *answer.property;
       PropertyOfPage& item = properties.emplace_back();
       item.title =

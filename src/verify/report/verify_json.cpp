@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "core/report/explanation_json.h"
 #include "core/support/json_description.h"
@@ -134,7 +133,7 @@ constexpr auto script = [](std::string_view meaning, auto length_of, auto text_o
 struct Answered {
   const VerifyPart& part;
   const ReportedAnswer& reported;
-  const Answer& answer = *reported.answer;
+  const PropertyAnswer& answer = *reported.answer;
   const Property& property = *answer.property;
 };
 

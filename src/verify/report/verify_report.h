@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <span>
@@ -46,7 +45,7 @@ struct Replay {
 
 /// What was found out about a property, and its script.
 struct ReportedAnswer {
-  const Answer* answer = nullptr;
+  const PropertyAnswer* answer = nullptr;
   std::optional<Replay> replay;            ///< if there is a script
   std::optional<std::string> script_path;  ///< of the file that has it
 };
@@ -155,7 +154,7 @@ struct VerifyResult {
 /// What was found out about a property of a part, with how far that reaches: "violated after 4
 /// events", "proved for 61 reachable states", "undecided: ended by --max-states 1000; …".
 [[nodiscard]] std::string describe_answer(const VerifyResult& result, const VerifyPart& part,
-                                          const Answer& answer);
+                                          const PropertyAnswer& answer);
 
 /// "LIGHT is night and GPS is unavailable"
 [[nodiscard]] std::string describe_part(const CompiledCatalog& catalog, const SituationPart& part);

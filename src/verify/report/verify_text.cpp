@@ -53,12 +53,12 @@ std::string title_of(const CompiledCatalog& catalog, const Property& property) {
 namespace {
 
 /// The exploration that decided a property.
-const Exploration& exploration_of(const VerifyPart& part, const Answer& answer) {
+const Exploration& exploration_of(const VerifyPart& part, const PropertyAnswer& answer) {
   return part.verification.explorations[*answer.exploration];
 }
 
 /// How a property is violated: "violated after 4 events".
-std::string describe_violation(const Answer& answer, const Exploration& exploration) {
+std::string describe_violation(const PropertyAnswer& answer, const Exploration& exploration) {
   if (!answer.witness) {
     return fmt::format("violated: there is none among {}", quantity(exploration.states, "state"));
   }
@@ -90,7 +90,7 @@ std::string describe_vacuity(const Property& property) {
 }
 
 std::string describe_answer(const VerifyResult& result, const VerifyPart& part,
-                            const Answer& answer) {
+                            const PropertyAnswer& answer) {
   const std::string vacuity =
       answer.verdict.is_vacuous ? ", but only since " + describe_vacuity(*answer.property) : "";
   if (answer.verdict.by_constraints) {
@@ -322,7 +322,7 @@ void add_table(const VerifyResult& result, const VerifyPart& part, Text& text) {
                              number_column("events"),
                              {"property"}});
   for (const ReportedAnswer& reported : part.answers) {
-    const Answer& answer = *reported.answer;
+    const PropertyAnswer& answer = *reported.answer;
     const Verdict::Result found = answer.verdict.result;
     const auto count = [&](auto Exploration::*number) {
       return answer.exploration ? std::to_string(exploration_of(part, answer).*number) : "";
@@ -358,7 +358,7 @@ void add_vacuity(const VerifyPart& part, const Property& property, Text& text) {
 
 void add_violation(const VerifyResult& result, const VerifyPart& part,
                    const ReportedAnswer& reported, Text& text) {
-  const Answer& answer = *reported.answer;
+  const PropertyAnswer& answer = *reported.answer;
   const Property& property = *answer.property;
   text.title(fmt::format("{}:{}: {}", printable(part.file->path), property.line,
                          title_of(*result.catalog, property)));

@@ -97,8 +97,8 @@ struct FittingChange {
   std::string before;
   std::string after;
 };
-/// Of the tasks and variables that both have, if a behavior of the task names the variable in
-/// either catalog.
+/// The changes of tasks and variables that both have, if a behavior of the task names the variable
+/// in either catalog.
 [[nodiscard]] std::vector<FittingChange> compare_fitting(const CompiledCatalog& before,
                                                          const CompiledCatalog& after,
                                                          const Renames& renames);

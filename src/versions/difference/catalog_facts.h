@@ -14,7 +14,7 @@ namespace cbc {
 
 /// The beginning of the name of an attribute that is a condition on a situation variable.
 inline constexpr std::string_view condition_prefix = "situation ";
-/// The same of a parameter of a task.
+/// The beginning of the name of an attribute that is a parameter of a task.
 inline constexpr std::string_view parameter_prefix = "parameter ";
 
 /// Zero stands for nothing in compiled catalogs.

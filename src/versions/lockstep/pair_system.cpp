@@ -8,7 +8,7 @@ PairSystem::Side::Side(const Model& model, const Stepper::Options& options,
                        const EnvironmentBits& bits, Diagrams& sets)
     : controls(model, options, bits, sets) {}
 
-void PairSystem::Side::take(const Model::Choice* choice, const Environments::Effect& effect,
+void PairSystem::Side::take(const Model::Choice* choice, const Environments::ActionEffect& effect,
                             SystemOracle& oracle) {
   if (choice != nullptr) {
     controls.take(*choice, effect, oracle);
@@ -46,7 +46,7 @@ void PairSystem::add_moves() {
 }
 
 void PairSystem::add_actions(const ModelPair::PairedMove& move) {
-  using Effects = std::vector<Environments::Effect>;
+  using Effects = std::vector<Environments::ActionEffect>;
   Effects of_new;
   Effects of_old;
   if (move.of_new != nullptr) of_new = new_.controls.environments().effects_of(*move.of_new);
@@ -55,8 +55,8 @@ void PairSystem::add_actions(const ModelPair::PairedMove& move) {
   if (of_new.empty()) of_new.resize(of_old.size());
   if (of_old.empty()) of_old.resize(of_new.size());
   for (std::size_t place = 0; place < of_new.size(); ++place) {
-    const Environments::Effect& new_effect = of_new[place];
-    const Environments::Effect& old_effect = of_old[place];
+    const Environments::ActionEffect& new_effect = of_new[place];
+    const Environments::ActionEffect& old_effect = of_old[place];
     // It exists if either side has it, and neither comes to where `never` excludes.
     const Set condition = sets_.without(sets_.either(new_effect.condition, old_effect.condition),
                                         sets_.either(new_effect.excluded, old_effect.excluded));
@@ -89,38 +89,38 @@ bool PairSystem::may_have(std::uint32_t action) const {
 
 // Moves.
 
-ControlSystem::Outcome PairSystem::take(std::uint32_t action, SystemOracle& oracle) {
+ControlSystem::MoveResult PairSystem::take(std::uint32_t action, SystemOracle& oracle) {
   const PairedAction& paired = paired_[action];
   new_.take(paired.of_new, paired.new_effect, oracle);
   old_.take(paired.of_old, paired.old_effect, oracle);
   return compare();
 }
 
-ControlSystem::Outcome PairSystem::take_fault() {
+ControlSystem::MoveResult PairSystem::take_fault() {
   new_.controls.stepper().stay();
   old_.controls.stepper().stay();
   return compare();
 }
 
-ControlSystem::Outcome PairSystem::take_repair(std::uint32_t kind) {
+ControlSystem::MoveResult PairSystem::take_repair(std::uint32_t kind) {
   new_.controls.take_repair(bits_.repaired[kind].first);
   old_.controls.take_repair(bits_.repaired[kind].second);
   return compare();
 }
 
-ControlSystem::Outcome PairSystem::compare() {
+ControlSystem::MoveResult PairSystem::compare() {
   answers_.compare(new_.trace, old_.trace, new_.controls.stepper().cells_after(),
                    old_.controls.stepper().cells_after());
   new_.trace.events.clear();
   old_.trace.events.clear();
   is_compared_ = is_compared_ || answers_.is_compared();
-  Outcome outcome;
-  outcome.note = note_of(answers_.notes());
-  if (!answers_.is_alike()) return outcome;
+  MoveResult result;
+  result.note = note_of(answers_.notes());
+  if (!answers_.is_alike()) return result;
   new_.controls.pack_after(packed_.data());
   old_.controls.pack_after(packed_.data() + models_.new_model.packed_words());
-  outcome.control = packed_.data();
-  return outcome;
+  result.control = packed_.data();
+  return result;
 }
 
 std::uint32_t PairSystem::note_of(const std::vector<AnswerComparison::Note>& notes) {

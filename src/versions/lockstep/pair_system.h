@@ -16,7 +16,7 @@
 namespace cbc {
 
 /// Pairs of states that the same moves lead to in the models of two catalogs. A move is made in
-/// both; one that is decided differently leads nowhere. An outcome's note says about which tasks
+/// both; one that is decided differently leads nowhere. A result's note says about which tasks
 /// something differs. Models, bits and scope must outlive it.
 class PairSystem final : public ControlSystem {
  public:
@@ -38,9 +38,9 @@ class PairSystem final : public ControlSystem {
   [[nodiscard]] std::vector<std::uint8_t> first_environment() const override;
   void load(const std::uint32_t* control) override;
   [[nodiscard]] bool may_have(std::uint32_t action) const override;
-  [[nodiscard]] Outcome take(std::uint32_t action, SystemOracle& oracle) override;
-  [[nodiscard]] Outcome take_fault() override;
-  [[nodiscard]] Outcome take_repair(std::uint32_t kind) override;
+  [[nodiscard]] MoveResult take(std::uint32_t action, SystemOracle& oracle) override;
+  [[nodiscard]] MoveResult take_fault() override;
+  [[nodiscard]] MoveResult take_repair(std::uint32_t kind) override;
   void for_each_kept(const std::function<void(Set)>& keep) const override;
 
  private:
@@ -49,23 +49,23 @@ class PairSystem final : public ControlSystem {
     Side(const Model& model, const Stepper::Options& options, const EnvironmentBits& bits,
          Diagrams& sets);
     /// `choice`: null: it does not have the move.
-    void take(const Model::Choice* choice, const Environments::Effect& effect,
+    void take(const Model::Choice* choice, const Environments::ActionEffect& effect,
               SystemOracle& oracle);
 
     ControlStepper controls;
     MoveTrace trace;
   };
-  /// Of an action.
+  /// What an action tries in both.
   struct PairedAction {
     const Model::Choice* of_new = nullptr;
     const Model::Choice* of_old = nullptr;
-    Environments::Effect new_effect;
-    Environments::Effect old_effect;
+    Environments::ActionEffect new_effect;
+    Environments::ActionEffect old_effect;
   };
 
   void add_moves();
   void add_actions(const ModelPair::PairedMove& move);
-  [[nodiscard]] Outcome compare();
+  [[nodiscard]] MoveResult compare();
   [[nodiscard]] std::uint32_t note_of(const std::vector<AnswerComparison::Note>& notes);
 
   const ModelPair& models_;
@@ -74,9 +74,8 @@ class PairSystem final : public ControlSystem {
   Side old_;
   AnswerComparison answers_;
   bool is_compared_ = false;
-  std::vector<PairedAction> paired_;  ///< by action
-  /// That of the new catalog, then that of the old one.
-  std::vector<std::uint32_t> first_;
+  std::vector<PairedAction> paired_;   ///< by action
+  std::vector<std::uint32_t> first_;   ///< control of the new catalog, then that of the old one
   std::vector<std::uint32_t> packed_;  ///< after the move
   std::vector<std::vector<std::uint32_t>> tasks_of_notes_{1};
   std::map<std::vector<std::uint32_t>, std::uint32_t> notes_;  ///< by tasks

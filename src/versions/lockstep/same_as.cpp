@@ -44,8 +44,8 @@ class DifferenceVisitor {
 
   void visit(const States& /*states*/, std::uint32_t depth) { depth_ = depth; }
   void on_refusal(std::uint32_t /*action*/, const States& /*states*/) const {}
-  void on_outcome(std::uint32_t /*action*/, const States& /*states*/,
-                  const Controls::Outcome& /*outcome*/) const {}
+  void on_result(std::uint32_t /*action*/, const States& /*states*/,
+                 const Controls::NumberedResult& /*result*/) const {}
   void on_note(std::uint32_t note, const States& states) {
     for (const std::uint32_t task : system_.tasks_of(note)) found_[task].add(states, depth_);
     has_found_ = true;
@@ -82,9 +82,9 @@ void add_divergence(std::uint32_t task, const std::vector<DifferenceVisitor>& vi
   StateSpace::Path path = space.path_to(found);
   const auto& moves = system.moves();
   const auto differs = [&](const ControlSystem::StateMove& move) {
-    const auto outcome = path.end.try_move(static_cast<std::size_t>(&move - moves.data()));
-    if (!outcome) return false;
-    const auto& tasks = system.tasks_of(outcome->note);
+    const auto result = path.end.try_move(static_cast<std::size_t>(&move - moves.data()));
+    if (!result) return false;
+    const auto& tasks = system.tasks_of(result->note);
     return std::binary_search(tasks.begin(), tasks.end(), task);
   };
   const auto last = std::find_if(moves.begin(), moves.end(), differs);

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "explore/moves/stepper.h"
@@ -21,7 +19,7 @@ class AnswerComparison {
   using Aspect = TaskDifference::Aspect;
   using Happening = MoveTrace::Happening;
 
-  /// That something differs about a task.
+  /// One thing that differs about a task.
   struct Note {
     std::uint32_t task = 0;  ///< place in ModelPair::tasks
     Aspect aspect = Aspect::outcome;

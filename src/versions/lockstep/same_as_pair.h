@@ -11,8 +11,6 @@
 
 namespace cbc {
 
-// What is the same in the models of two catalogs.
-
 /// The models of both catalogs, and what is the same in them. Catalogs and translations must
 /// outlive it.
 struct ModelPair {
@@ -36,7 +34,7 @@ struct ModelPair {
   [[nodiscard]] bool is_compared(std::uint32_t behavior, bool is_new) const {
     return (is_new ? new_is_compared : old_is_compared)[behavior];
   }
-  /// Their numbers among the reactive tasks; none: it is not one of them.
+  /// The numbers that both have among the reactive tasks; none: it is not one of them.
   [[nodiscard]] TaskPair reactive_of(const TaskPair& task) const {
     return {task.first == none ? none : new_model.tasks()[task.first].reactive,
             task.second == none ? none : old_model.tasks()[task.second].reactive};

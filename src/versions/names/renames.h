@@ -25,7 +25,7 @@ struct Renames {
                                      const CompiledCatalog& new_catalog, std::string_view old_name,
                                      std::string_view new_name, Renames& renames);
 
-/// The same for "OLD=NEW" entries of an option.
+/// Adds what "OLD=NEW" entries of an option rename. Returns what is wrong, or nothing.
 [[nodiscard]] std::string add_renames(const CompiledCatalog& old_catalog,
                                       const CompiledCatalog& new_catalog,
                                       const std::vector<std::string>& entries, Renames& renames);

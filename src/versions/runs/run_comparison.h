@@ -38,7 +38,7 @@ class AnswerCollector final : public RunListener {
   explicit AnswerCollector(const CompiledCatalog& catalog) : catalog_(catalog) {}
 
   void on_event(const ExplainedRecord& record, const Step* step, const State& state) override;
-  /// Those since the last call.
+  /// The answers since the last call.
   [[nodiscard]] std::vector<RunAnswer> take();
 
  private:

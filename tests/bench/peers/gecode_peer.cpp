@@ -7,7 +7,6 @@
 // place, from 0.
 
 #include <algorithm>
-#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <gecode/int.hh>
@@ -16,8 +15,6 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
-#include <numeric>
-#include <string>
 #include <vector>
 
 namespace {

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "cbc/live_coordinator.h"

@@ -1,6 +1,4 @@
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "compile/catalog_dump.h"
 #include "core/compile/compile.h"

@@ -2,7 +2,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/check/controls.h"
+#include "core/check/severity_settings.h"
 #include "core/diagnostic/diagnostic.h"
 #include "fuzz/catalogs.h"
 #include "fuzz/lint.h"

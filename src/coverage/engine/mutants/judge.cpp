@@ -22,7 +22,6 @@
 #include "core/script/runner.h"
 #include "core/script/script.h"
 #include "core/yaml/document.h"
-#include "coverage/engine/goal_proof.h"
 #include "coverage/engine/mutants/mutants.h"
 #include "explore/controls/witness.h"
 #include "runtime/coordinator/coordinator.h"

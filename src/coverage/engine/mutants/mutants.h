@@ -113,7 +113,7 @@ struct MutantVerdict {
 /// Judges one mutant, also on several threads at once.
 class MutantJudge {
  public:
-  /// Of the comparison of one mutant with the catalog.
+  /// What the comparison of one mutant with the catalog may take.
   struct Limits {
     std::uint64_t max_states = 0;  ///< 0: no limit
     std::uint64_t max_memory = 0;  ///< bytes; 0: no limit
