@@ -172,21 +172,19 @@ std::vector<Reason> constraints_on(const CompiledCatalog& catalog, const Asked& 
   return constraints;
 }
 
-void RelaxedQuestions::add(const Asked& question, const ValueSets* sets,
-                           const SituationSpace* space) {
+void RelaxedQuestions::add(Asked question, const ValueSets* sets, const SituationSpace* space) {
   const CompiledCatalog& catalog = space_.catalog();
   if (present_.empty()) present_.resize(most_in_a_group(catalog.group_tasks), none);
   One& one = questions_.emplace_back();
   one.space = space != nullptr ? space : &space_;
   one.sets = sets != nullptr ? *sets : space_.all();
-  for (const GroupDemands& demanded : question) {
-    Part& part = one.parts.emplace_back();
-    part.group = demanded.group;
-    for (const Demand& demand : demanded.demands) part.tasks.push_back(demand.task);
-    part.search =
-        std::make_unique<ConflictSearch>(catalog, demanded.group, present_, demanded.demands);
+  one.has_situation = one.space->find(one.sets).has_value();
+  one.parts.reserve(question.size());
+  for (GroupDemands& demanded : question) {
+    one.parts.push_back({demanded.group, ConflictSearch(catalog, demanded.group, present_,
+                                                        std::move(demanded.demands))});
     if (demanded.low_task != none) {
-      part.search->keep_below(demanded.low_task, demanded.low_minimum);
+      one.parts.back().search.keep_below(demanded.low_task, demanded.low_minimum);
     }
   }
 }
@@ -199,11 +197,8 @@ std::vector<Reason> RelaxedQuestions::conflict(std::span<const Reason> candidate
     before = used.size();
     std::vector<bool> is_used(before, false);
     if (solve(used, &is_used) != Feasibility::no) return {};
-    std::vector<Reason> some;
-    for (std::size_t i = 0; i < before; ++i) {
-      if (is_used[i]) some.push_back(std::move(used[i]));
-    }
-    used = std::move(some);
+    std::size_t place = 0;
+    std::erase_if(used, [&](const Reason& /*reason*/) { return !is_used[place++]; });
   }
   std::vector<Reason> minimal = minimal_conflict_set(
       used, [this](std::span<const Reason> some) { return solve(some) != Feasibility::no; });
@@ -211,27 +206,10 @@ std::vector<Reason> RelaxedQuestions::conflict(std::span<const Reason> candidate
 }
 
 Feasibility RelaxedQuestions::solve(std::span<const Reason> reasons, std::vector<bool>* is_used) {
-  const bool has_conditions = std::any_of(reasons.begin(), reasons.end(), [](const Reason& reason) {
-    return reason.kind == Reason::Kind::situation;
-  });
-  ConditionSet conditions(has_conditions ? space_.catalog().fitting_values.size() : 0, 0);
-  for (const Reason& reason : reasons) {
-    if (reason.kind != Reason::Kind::situation) continue;
-    for (const FittingValue& value : fitting_values_of(space_.catalog(), reason)) {
-      conditions[place_of(space_.catalog(), value)] = 1;
-    }
-  }
   Feasibility answer = Feasibility::no;
   for (One& one : questions_) {
-    const auto search = [&](const ValueSets& sets, BehaviorSet& active) {
-      for (Part& part : one.parts) {
-        const Feasibility of_part = solve(part, reasons, sets, is_used);
-        if (of_part != Feasibility::yes) return of_part;
-        if (has_conditions) add_active(part, active);
-      }
-      return Feasibility::yes;
-    };
-    const Feasibility of_one = SituationSplits(*one.space).find(one.sets, search, &conditions);
+    if (!one.has_situation) continue;
+    const Feasibility of_one = solve(one, reasons, is_used);
     if (of_one == Feasibility::yes) {
       answered_ = &one;
       return of_one;
@@ -239,6 +217,33 @@ Feasibility RelaxedQuestions::solve(std::span<const Reason> reasons, std::vector
     if (of_one == Feasibility::unknown) answer = of_one;
   }
   return answer;
+}
+
+Feasibility RelaxedQuestions::solve(One& one, std::span<const Reason> reasons,
+                                    std::vector<bool>* is_used) {
+  const bool has_conditions = std::any_of(reasons.begin(), reasons.end(), [](const Reason& reason) {
+    return reason.kind == Reason::Kind::situation;
+  });
+  const auto search = [&](const ValueSets& sets, BehaviorSet& active) {
+    for (Part& part : one.parts) {
+      const Feasibility of_part = solve(part, reasons, sets, is_used);
+      if (of_part != Feasibility::yes) return of_part;
+      if (has_conditions) add_active(part, active);
+    }
+    return Feasibility::yes;
+  };
+  if (!has_conditions) {  // whatever the situation is
+    BehaviorSet not_asked;
+    return search(one.sets, not_asked);
+  }
+  ConditionSet conditions(space_.catalog().fitting_values.size(), 0);
+  for (const Reason& reason : reasons) {
+    if (reason.kind != Reason::Kind::situation) continue;
+    for (const FittingValue& value : fitting_values_of(space_.catalog(), reason)) {
+      conditions[place_of(space_.catalog(), value)] = 1;
+    }
+  }
+  return SituationSplits(*one.space).find(one.sets, search, &conditions);
 }
 
 Feasibility RelaxedQuestions::solve(Part& part, std::span<const Reason> reasons,
@@ -260,22 +265,22 @@ Feasibility RelaxedQuestions::solve(Part& part, std::span<const Reason> reasons,
     }
     reasons = some;
   }
-  const Feasibility answer = part.search->solve(reasons, effort_);
+  const Feasibility answer = part.search.solve(reasons, effort_);
   if (answer != Feasibility::no || is_used == nullptr) return answer;
   for (std::size_t i = 0; i < reasons.size(); ++i) {
-    if (part.search->is_used()[i] != 0) (*is_used)[places.empty() ? i : places[i]] = true;
+    if (part.search.is_used()[i] != 0) (*is_used)[places.empty() ? i : places[i]] = true;
   }
   return answer;
 }
 
 std::vector<ValueId> RelaxedQuestions::values_of(TaskId task) {
-  return answered_->parts.back().search->values_of(task);
+  return answered_->parts.back().search.values_of(task);
 }
 
 /// The behaviors that perform what is demanded, and all that this requires.
 void RelaxedQuestions::add_active(Part& part, BehaviorSet& active) const {
-  for (const TaskId task : part.tasks) {
-    for (const ValueId value : part.search->values_of(task)) {
+  for (const Demand& demand : part.search.demands()) {
+    for (const ValueId value : part.search.values_of(demand.task)) {
       active.push_back(space_.catalog().values.items[value].behavior);
     }
   }

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -127,8 +125,7 @@ class RelaxedQuestions {
 
   /// One more question, in the situations of a space that have values of the sets; null: in all,
   /// and in the space of the other questions.
-  void add(const Asked& question, const ValueSets* sets = nullptr,
-           const SituationSpace* space = nullptr);
+  void add(Asked question, const ValueSets* sets = nullptr, const SituationSpace* space = nullptr);
 
   /// Whether one of the questions has an answer.
   [[nodiscard]] Feasibility solve(std::span<const Reason> reasons) {
@@ -145,25 +142,27 @@ class RelaxedQuestions {
  private:
   struct Part {
     GroupId group;
-    std::vector<TaskId> tasks;  ///< of the demands
-    std::unique_ptr<ConflictSearch> search;
+    ConflictSearch search;
   };
   struct One {
     std::vector<Part> parts;
     const SituationSpace* space = nullptr;
     ValueSets sets;
+    bool has_situation = false;
   };
 
   [[nodiscard]] Feasibility solve(std::span<const Reason> reasons, std::vector<bool>* is_used);
+  [[nodiscard]] Feasibility solve(One& one, std::span<const Reason> reasons,
+                                  std::vector<bool>* is_used);
   [[nodiscard]] Feasibility solve(Part& part, std::span<const Reason> reasons,
                                   const ValueSets& sets, std::vector<bool>* is_used);
   void add_active(Part& part, BehaviorSet& active) const;
 
   const SituationSpace& space_;
   Effort& effort_;
-  std::deque<One> questions_;
+  std::vector<One> questions_;
   std::vector<std::uint32_t> present_;
-  const One* answered_ = nullptr;  ///< the last question that had an answer
+  One* answered_ = nullptr;  ///< the last question that had an answer
 };
 
 }  // namespace cbc

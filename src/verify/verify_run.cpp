@@ -285,11 +285,12 @@ class Call {
         std::any_of(result_.parts.begin(), result_.parts.end(),
                     [](const VerifyPart& part) { return part.is_about_groups(); });
     if (!is_about_groups || options_.format != "text" || options_.outcomes) return;
+    const SituationSpace in = situations();
     Progress progress("searching", catalog_.task_ids.size());
     const EffectOptions of_search{1, false, search_budget(progress)};
     for (const TaskId task : catalog_.task_ids) {
       if (catalog_.tasks[task].start_on_request == 0) continue;
-      result_.single_faults.push_back(find_cut_sets(situations(), task, of_search));
+      result_.single_faults.push_back(find_cut_sets(in, task, of_search));
     }
   }
 
@@ -305,6 +306,7 @@ class Call {
       effects.changes = changes_of(catalog_, effects.situation, result_.never);
     }
     if (options_.fail_on) effects.limit = limit_of(*options_.fail_on);
+    const SituationSpace in = situations();
     const std::vector<TaskId> tasks = effects.are_cut_sets ? cut_tasks_ : requestable_tasks();
     Progress progress("searching", tasks.size());
     const EffectOptions of_search{effects.order, effects.in_some_situation,
@@ -312,7 +314,7 @@ class Call {
     for (const TaskId task : tasks) {
       effects.tasks.push_back(
           effects.are_cut_sets
-              ? find_cut_sets(situations(), task, of_search)
+              ? find_cut_sets(in, task, of_search)
               : cbc::find_effects(catalog_, task, effects.situation, effects.changes, of_search));
     }
   }

@@ -282,7 +282,9 @@ std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
   for (const Demands& way : ways) {
     Demands demands = demands_of(catalog, circumstances.state, trigger);
     demands.insert(demands.end(), way.begin(), way.end());
-    questions.add({{trigger.group, std::move(demands)}});
+    Asked question(1);  // a list would be copied
+    question.front() = {trigger.group, std::move(demands)};
+    questions.add(std::move(question));
   }
   if (questions.solve({}) == Feasibility::no) return std::vector<Reason>();
   std::vector<Reason> reasons = questions.conflict(candidates);

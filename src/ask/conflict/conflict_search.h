@@ -94,6 +94,8 @@ class ConflictSearch {
   ConflictSearch(const CompiledCatalog& catalog, GroupId group,
                  std::span<const std::uint32_t> present, Demands demands);
 
+  [[nodiscard]] const Demands& demands() const { return demands_; }
+
   /// Admits only solutions in which `task` runs and its performance is below `minimum`.
   void keep_below(TaskId task, Millionths minimum) {
     low_task_ = task - first_task_;

@@ -67,6 +67,16 @@ std::vector<VariableValue> combination_of(const CompiledCatalog& catalog,
   return values;
 }
 
+bool may_change(const Assumptions& assumptions, std::uint32_t variable) {
+  const auto& changing = assumptions.variables;
+  return std::find(changing.begin(), changing.end(), variable) != changing.end();
+}
+
+bool may_change(const Assumptions& assumptions, BehaviorId behavior) {
+  const auto& changing = assumptions.behaviors;
+  return std::find(changing.begin(), changing.end(), behavior) != changing.end();
+}
+
 bool can_become_faulty(const Assumptions& assumptions, BehaviorId behavior) {
   const auto& listed = assumptions.listed_for_faults;
   const bool is_listed = std::find(listed.begin(), listed.end(), behavior) != listed.end();

@@ -9,23 +9,14 @@
 
 namespace cbc {
 
-namespace {
-
-template <typename Item>
-bool is_listed(const std::vector<Item>& list, Item item) {
-  return std::find(list.begin(), list.end(), item) != list.end();
-}
-
-}  // namespace
-
 PossibleStates possible_states(const CompiledCatalog& catalog, const Assumptions& assumptions) {
   PossibleStates states;
   for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
-    if (is_listed(assumptions.variables, variable)) continue;
+    if (may_change(assumptions, variable)) continue;
     states.constant.variables.push_back({variable, initial_value(assumptions, variable)});
   }
   for (const BehaviorId behavior : catalog.behavior_ids) {
-    if (is_listed(assumptions.behaviors, behavior)) continue;
+    if (may_change(assumptions, behavior)) continue;
     states.constant.behaviors.push_back({behavior, is_available_at_first(assumptions, behavior)});
   }
   states.never = assumptions.never;

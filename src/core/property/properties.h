@@ -63,6 +63,9 @@ struct StatedAssumptions {
 /// Whether all of the part holds in the first state.
 [[nodiscard]] bool holds_at_first(const Assumptions& assumptions, const SituationPart& part);
 
+/// Whether events may change the value of a variable, and own(b) of a behavior.
+[[nodiscard]] bool may_change(const Assumptions& assumptions, std::uint32_t variable);
+[[nodiscard]] bool may_change(const Assumptions& assumptions, BehaviorId behavior);
 [[nodiscard]] bool can_become_faulty(const Assumptions& assumptions, BehaviorId behavior);
 
 // Combinations of values of variables are counted in the order of values, those of the last

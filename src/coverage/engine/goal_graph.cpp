@@ -181,9 +181,7 @@ class GraphBuilder {
   void add_free_variables() {
     for (std::uint32_t goal = 0; goal < is_met_.size(); ++goal) {
       const std::uint32_t variable = question_.goals[goal].variable;
-      const auto& may_change = assumptions_.variables;
-      if (question_.wanted[goal] == 0 || variable == none ||
-          std::find(may_change.begin(), may_change.end(), variable) == may_change.end() ||
+      if (question_.wanted[goal] == 0 || variable == none || !may_change(assumptions_, variable) ||
           std::find(bound_.begin(), bound_.end(), variable) != bound_.end() ||
           std::any_of(catalog_.fitting_values.begin(), catalog_.fitting_values.end(),
                       [&](const FittingValue& one) { return one.variable == variable; })) {

@@ -270,8 +270,7 @@ class ReasonFinder {
 
   [[nodiscard]] std::string why_never_value(const Goal& goal) const {
     const std::string variable = printable(catalog_.name_of_variable(goal.variable));
-    const auto& changing = assumptions_.variables;
-    if (std::find(changing.begin(), changing.end(), goal.variable) == changing.end()) {
+    if (!may_change(assumptions_, goal.variable)) {
       return fmt::format("{} always is {}", variable,
                          printable(catalog_.name_of_value(
                              {goal.variable, initial_value(assumptions_, goal.variable)})));
@@ -307,8 +306,7 @@ class ReasonFinder {
 /// Of a variable that neither a behavior nor `never` names.
 bool may_have(const Assumptions& assumptions, const Goal& goal) {
   return initial_value(assumptions, goal.variable) == goal.value ||
-         std::find(assumptions.variables.begin(), assumptions.variables.end(), goal.variable) !=
-             assumptions.variables.end();
+         may_change(assumptions, goal.variable);
 }
 
 }  // namespace

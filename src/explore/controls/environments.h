@@ -61,9 +61,8 @@ class Environments {
     Diagrams::ValuesNumber values = 0;
     std::uint32_t table = 0;  ///< the same for all without a change
   };
-  /// The effects of a move that is no fault and no repair. Whether own(b) becomes true or false are
-  /// two. The sets
-  /// are not kept.
+  /// The effects of a move that is no fault and no repair. That own(b) becomes true is one, that it
+  /// becomes false another. The sets are not kept.
   [[nodiscard]] std::vector<ActionEffect> effects_of(const Model::Choice& choice);
   /// The environments before a move with this effect in which the answer is yes after it; see
   /// EnvironmentOracle.

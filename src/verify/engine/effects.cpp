@@ -34,6 +34,7 @@
 
 #include <fmt/format.h>
 
+#include "ask/together.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 #include "runtime/solver/objective.h"
@@ -267,17 +268,15 @@ class EffectSearch {
   }
 
   [[nodiscard]] bool add_changes(std::span<const VariableValue> changes) {
+    const std::vector<std::uint32_t> that_matter =
+        changes.empty() ? std::vector<std::uint32_t>() : variables_of(catalog_, {{result_.task}});
     for (const VariableValue& change : changes) {
-      ValueSets changed = situations_.all();
-      for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
-        const CompiledVariable& of = catalog_.variables[variable];
-        const auto begin = changed.begin() + of.first_value;
-        if (variable == change.variable) {
-          situations_.restrict(change, changed);
-        } else {
-          std::copy_n(sets_.begin() + of.first_value, of.value_count, begin);
-        }
-      }
+      if (!std::binary_search(that_matter.begin(), that_matter.end(), change.variable)) continue;
+      const CompiledVariable& variable = catalog_.variables[change.variable];
+      ValueSets changed = sets_;
+      std::copy_n(situations_.all().begin() + variable.first_value, variable.value_count,
+                  changed.begin() + variable.first_value);
+      situations_.restrict(change, changed);
       const Feasibility answer = ask({}, changed);
       if (answer == Feasibility::unknown) return false;
       if (answer == Feasibility::no) {

@@ -31,27 +31,31 @@ struct BestOfTask {
   const BestAssignment& best;
 };
 
+/// What it says: nothing where none was sought, null where the task cannot run.
+template <typename Tell>
+[[nodiscard]] auto told_of(const BestOfTask& of, const Tell& tell) {
+  using Told = std::optional<decltype(tell(*of.best))>;
+  std::optional<Told> told;
+  if (of.is_known) told.emplace(of.best ? Told(tell(*of.best)) : Told());
+  return told;
+}
+
 constexpr auto best_assignment = group(
     optional("behaviors", nullable(behaviors),
              "The active behaviors of the best assignment in which the task runs, in catalog "
              "order; null: it cannot run. Only with --effects.",
              [](const BestOfTask& of, const CompiledCatalog& catalog) {
-               using Active = std::optional<BehaviorSet>;
-               if (!of.is_known) return std::optional<Active>();
-               return std::optional<Active>(
-                   std::in_place,
-                   of.best ? Active(behaviors_of(catalog, of.task, *of.best)) : Active());
+               return told_of(of, [&](const Assignment& best) {
+                 return behaviors_of(catalog, of.task, best);
+               });
              }),
     optional("suitability", nullable(share),
              "The product of the suitabilities of all tasks that run then, from 0 to 1, as the "
              "nearest double; null: it cannot run. Only with --effects.",
              [](const BestOfTask& of, const CompiledCatalog& catalog) {
-               using Product = std::optional<double>;
-               if (!of.is_known) return std::optional<Product>();
-               return std::optional<Product>(
-                   std::in_place,
-                   of.best ? Product(product_of(suitabilities_of(catalog, of.task, *of.best)))
-                           : Product());
+               return told_of(of, [&](const Assignment& best) {
+                 return product_of(suitabilities_of(catalog, of.task, best));
+               });
              }));
 
 constexpr auto effect = object(

@@ -174,21 +174,13 @@ std::string title_of(const VerifyResult& result, const TaskEffects& of) {
                      join(names_of_behaviors(catalog, active), ", "));
 }
 
-/// "LIGHT is dark"
-std::string describe_values(const CompiledCatalog& catalog, const Effect& effect) {
-  std::vector<std::string> words;
-  words.reserve(effect.situation.size());
-  for (const VariableValue& value : effect.situation) {
-    words.push_back(describe_value(catalog, value));
-  }
-  return list_with_and(words);
-}
-
 /// "GPS, RADAR"; "LIGHT is dark" of a change.
 std::string describe_cause(const CompiledCatalog& catalog, const ReportedEffects& effects,
                            const Effect& effect) {
   if (!effect.faults.empty()) return join(names_of_behaviors(catalog, effect.faults), ", ");
-  if (!effect.situation.empty() && !effects.are_cut_sets) return describe_values(catalog, effect);
+  if (!effect.situation.empty() && !effects.are_cut_sets) {
+    return describe_part(catalog, {effect.situation, {}});
+  }
   const bool is_everywhere = effects.are_cut_sets && effect.situation.empty();
   return fmt::format("none is needed: it {} run", is_everywhere ? "can never" : "cannot");
 }
@@ -245,7 +237,7 @@ Table table_of(const CompiledCatalog& catalog, const ReportedEffects& effects,
     row.emplace_back(cause);
     if (is_page) row.emplace_back(substitutes);
     if (effects.in_some_situation) {
-      const std::string values = describe_values(catalog, *effect);
+      const std::string values = describe_part(catalog, {effect->situation, {}});
       row.emplace_back(values.empty() ? "in every situation" : "where " + values);
     }
     table.add(std::move(row));
