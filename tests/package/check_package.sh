@@ -8,41 +8,17 @@
 set -euo pipefail
 
 package=$(realpath -- "$1")
-mkdir -p -- "$2"
-work=$(realpath -- "$2")
-source=$(realpath -- "$(dirname -- "${BASH_SOURCE[0]}")/../..")
-root=$work/root
+work=$2
+. "$(dirname -- "${BASH_SOURCE[0]}")/new_root.sh"
 name=$(dpkg-deb -f "$package" Package)
 version=$(dpkg-deb -f "$package" Version)
 version=${version%-*}
 examples=/usr/share/doc/$name/examples
 
-say() { printf -- '-- %s\n' "$*"; }
-
-skip() {
-  echo "check_package.sh: skipped: $*" >&2
-  exit 77
-}
-
-fail() {
-  echo "check_package.sh: FAILED: $*" >&2
-  exit 1
-}
-
-# In the new root, as its administrator.
-inside() {
-  chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 "$@"
-}
-
 # install LOG PACKAGE...: installs in the new root.
 install() {
   inside apt-get install -qq -y --no-install-recommends "${@:2}" >"$work/$1.log" 2>&1 ||
     fail "apt: $(tail -n 5 "$work/$1.log")"
-}
-
-# In the new root, as somebody without any rights, in a folder to write in.
-use() {
-  chroot --userspec=65534:65534 "$root" env -i -C /tmp/use PATH=/usr/bin:/bin LC_ALL=C.UTF-8 "$@"
 }
 
 # All files, but for the records and caches that apt and dpkg keep.
@@ -54,21 +30,16 @@ list_files() {
 
 [[ $(dpkg-deb -f "$package" Recommends) == *man-db* ]] || fail "without man, nobody can read the manual"
 
-((EUID == 0)) || skip "only root can make a new root"
-command -v mmdebstrap >/dev/null || skip "there is no mmdebstrap"
+can_have_root
 
 say "lintian"
 # It is not uploaded to Debian, and the folder of libraries is that of the build, for all architectures.
 lintian --allow-root --fail-on error,warning \
   --suppress-tags initial-upload-closes-no-bugs,pkg-config-unavailable-for-cross-compilation "$package"
 
-say "a new root"
-trap 'rm -rf --one-file-system -- "$root"' EXIT
-rm -rf --one-file-system -- "$root"
-suite=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
-mmdebstrap --variant=apt --skip=cleanup/apt/lists "$suite" "$root" >"$work/root.log" 2>&1 ||
-  skip "mmdebstrap failed: $(grep -m 3 '^[EW]' "$work/root.log" || cat "$work/root.log")"
-mkdir -m 777 "$root/tmp/use"
+trap remove_root EXIT
+make_root "$(own_suite)"
+use true
 list_files >"$work/before"
 
 say "install"

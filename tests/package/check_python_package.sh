@@ -7,28 +7,9 @@ set -euo pipefail
 
 package=$(realpath -- "$1")
 program_package=$(realpath -- "$2")
-mkdir -p -- "$3"
-work=$(realpath -- "$3")
-root=$work/root
+work=$3
+. "$(dirname -- "${BASH_SOURCE[0]}")/new_root.sh"
 name=$(dpkg-deb -f "$package" Package)
-
-skip() {
-  echo "check_python_package.sh: skipped: $*" >&2
-  exit 77
-}
-
-fail() {
-  echo "check_python_package.sh: FAILED: $*" >&2
-  exit 1
-}
-
-inside() {
-  chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 "$@"
-}
-
-use() {
-  chroot --userspec=65534:65534 "$root" env -i -C /tmp/use PATH=/usr/bin:/bin LC_ALL=C.UTF-8 "$@"
-}
 
 list_files() {
   (cd "$root" && find . -xdev \( -path ./proc -o -path ./sys -o -path ./dev -o -path ./tmp -o -path ./var \) \
@@ -39,24 +20,18 @@ version=$(dpkg-deb -f "$program_package" Version)
 [[ $(dpkg-deb -f "$package" Depends) == *"$(dpkg-deb -f "$program_package" Package) (= $version)"* ]] ||
   fail "it does not depend on the program of just this version: $(dpkg-deb -f "$package" Depends)"
 
-((EUID == 0)) || skip "only root can make a new root"
-command -v mmdebstrap >/dev/null || skip "there is no mmdebstrap"
+can_have_root
 
-echo "-- lintian"
+say "lintian"
 # It is not uploaded to Debian.
 lintian --allow-root --fail-on error,warning --suppress-tags initial-upload-closes-no-bugs "$package"
 
-echo "-- a new root"
-trap 'rm -rf --one-file-system -- "$root"' EXIT
-rm -rf --one-file-system -- "$root"
-suite=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
-mmdebstrap --variant=apt --skip=cleanup/apt/lists --include=python3-pytest "$suite" "$root" >"$work/root.log" 2>&1 ||
-  skip "mmdebstrap failed: $(grep -m 3 '^[EW]' "$work/root.log" || cat "$work/root.log")"
-mkdir -m 777 "$root/tmp/use"
+trap remove_root EXIT
+make_root "$(own_suite)" --include=python3-pytest
 cp -- "$program_package" "$root/tmp/program.deb"
 cp -- "$package" "$root/tmp/python.deb"
 
-echo "-- install and use"
+say "install and use"
 inside apt-get install -qq -y --no-install-recommends /tmp/program.deb >"$work/program.log" 2>&1 ||
   fail "apt: $(tail -n 5 "$work/program.log")"
 list_files >"$work/before"
@@ -82,7 +57,7 @@ if inside apt-get remove -qq -y --simulate behavior-catalog-compiler | grep -q "
   fail "the program can be removed, and $name stays"
 fi
 
-echo "-- remove"
+say "remove"
 inside python3 -c 'import cbc_catalog' # as root, who may write beside it
 inside apt-get purge -qq -y "$name" >"$work/remove.log" 2>&1 || fail "apt: $(tail -n 5 "$work/remove.log")"
 list_files | diff "$work/before" - || fail "the package leaves these files"
