@@ -8,9 +8,7 @@ catalogs=$here/../../catalogs
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
 
-# ldd reports it on either output, with an exit status of its own.
-[[ $(ldd "$program" 2>&1 || true) == *"statically linked"* ]]
-[[ $(file -b "$program") == *" stripped"* ]]
+[[ $(file -b "$program") == *"static-pie linked"*" stripped"* ]]
 bash "$here/check_hardening.sh" "$program"
 
 cp -- "$program" "$work/program"

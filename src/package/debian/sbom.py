@@ -1,11 +1,11 @@
 """Writes the software bill of materials of the Debian package, as SPDX 2.3 in JSON.
 
-    sbom.py --name NAME --version VERSION --program PROGRAM --build FOLDER [--page LOCK] --output FILE
+    sbom.py --name NAME --version VERSION --program PROGRAM --build FOLDER [--page LOCK] [--emulator EMULATOR] --output FILE
 
 It lists what the program really has in it: the shared libraries that it is linked with, and the Debian packages of the
 headers that were compiled into it, by the records of Ninja. With --page LOCK also the packages of npm in the page of
-the simulator, by its lock file. The time is that of SOURCE_DATE_EPOCH, if that is set: then the same build
-gives the same bytes.
+the simulator, by its lock file. EMULATOR loads a program for another processor. The time is that of
+SOURCE_DATE_EPOCH, if that is set: then the same build gives the same bytes.
 """
 
 import argparse
@@ -38,11 +38,12 @@ def output_of(*command):
     return subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True).stdout
 
 
-def linked_files(program):
+def linked_files(program, emulator):
     """The shared libraries that the program itself names, where the loader finds them."""
     needed = re.findall(r"\(NEEDED\) +Shared library: \[(.+)\]", output_of("readelf", "--dynamic", "-W", program))
     # "libfmt.so.9 => /lib/libfmt.so.9 (0x7f…)"; the loader itself has only a path.
-    found = re.findall(r"^\s+(?:\S+ => )?(/\S+) \(0x", output_of("ldd", program), re.MULTILINE)
+    loaded = output_of("env", "LD_TRACE_LOADED_OBJECTS=1", *emulator, program)  # as ldd does, which knows one processor
+    found = re.findall(r"^\s+(?:\S+ => )?(/\S+) \(0x", loaded, re.MULTILINE)
     places = {pathlib.Path(path).name: path for path in found}
     return {places[name] for name in needed}
 
@@ -137,7 +138,7 @@ def bill(arguments):
     program = pathlib.Path(arguments.program)
     digest = hashlib.sha256(program.read_bytes()).hexdigest()
     created = datetime.datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH", time.time())), datetime.timezone.utc)
-    linked = packages_of(linked_files(program))
+    linked = packages_of(linked_files(program, arguments.emulator))
     compiled = packages_of(compiled_files(arguments.build)) - linked
     main = {
         "SPDXID": "SPDXRef-Package",
@@ -182,6 +183,7 @@ def main():
     for option in ("name", "version", "program", "build", "output"):
         parser.add_argument("--" + option, required=True)
     parser.add_argument("--page")
+    parser.add_argument("--emulator", nargs=1, default=[])
     arguments = parser.parse_args()
     pathlib.Path(arguments.output).write_text(json.dumps(bill(arguments), indent=1) + "\n")
 
