@@ -41,6 +41,8 @@ TEST(Filter, TellsThatThereIsNoProgram) {
   const Filtered result = run_filter({"no-such-program-anywhere"}, "text");
   EXPECT_FALSE(result.is_found);
   EXPECT_EQ(result.error_output, "No such file or directory");
+  // What comes of it where the process starts first.
+  EXPECT_FALSE(run_filter({"sh", "-c", "exit 127"}, "text").is_found);
 }
 
 }  // namespace

@@ -320,6 +320,11 @@ Filtered run_filter(const std::vector<std::string>& command, std::string_view in
       !read_all(streams[STDERR_FILENO], result.error_output)) {
     return fail();
   }
+  // POSIX lets a system start a process before it knows that there is no program; emulators do.
+  constexpr int no_program = 127;
+  if (result.status == no_program && result.output.empty() && result.error_output.empty()) {
+    return {false, false, {}, reason(ENOENT), -1};
+  }
   if (!result.is_done && result.error_output.empty()) result.error_output = end_of(status);
   return result;
 }
