@@ -90,12 +90,12 @@ std::string status_of(pid_t process, std::string_view name) {
   return {};
 }
 
-/// What can be read of a pipe, up to its end or until nothing comes for a while.
+/// What can be read of a pipe, up to its end or until nothing more comes for a while.
 std::string read_rest(int descriptor) {
   std::string text;
   std::array<char, 1 << 14> block{};
   pollfd waiting{descriptor, POLLIN, 0};
-  while (::poll(&waiting, 1, 1000) > 0) {
+  while (::poll(&waiting, 1, text.empty() ? 30'000 : 1000) > 0) {  // a program may start slowly
     const ssize_t count = ::read(descriptor, block.data(), block.size());
     if (count <= 0) break;
     text.append(block.data(), static_cast<std::size_t>(count));
