@@ -54,7 +54,7 @@ class Contradictions {
   [[nodiscard]] std::vector<Impossible> take_misplaced(Parts& parts, Ground ground) const;
 
   /// Minimal sets of parts that no state of `states` satisfies, each reported at the last of its
-  /// parts. Empty also if it takes too long to find. The parts that are left hold together.
+  /// parts; not all, and the last not minimal, if the effort ends. What is left holds together.
   [[nodiscard]] std::vector<Impossible> find(Parts& parts, Ground ground, StateAsk& states,
                                              const Reporter& reporter) const;
 
