@@ -52,10 +52,16 @@ set(CBC_PYTHON_DIR "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/
 set(python_program "../../${CBC_PROGRAM_NAME}")
 configure_file(src/python/_build.py.in "${python_build}/cbc_catalog/_build.py" @ONLY)
 file(RELATIVE_PATH python_program "/${CBC_PYTHON_DIR}/cbc_catalog" "/${CMAKE_INSTALL_BINDIR}/${CBC_PROGRAM_NAME}")
+if(SKBUILD) # pip puts what is here into lib/python3.x/site-packages, beside the program's folder bin
+  set(CBC_PYTHON_DIR ".")
+  install(TARGETS cbc RUNTIME DESTINATION "${SKBUILD_SCRIPTS_DIR}" COMPONENT python)
+endif()
 configure_file(src/python/_build.py.in "${python_build}/installed/_build.py" @ONLY)
 
 install(TARGETS cbc_python LIBRARY DESTINATION "${CBC_PYTHON_DIR}/cbc_catalog" COMPONENT python)
 list(TRANSFORM python_files PREPEND "src/python/cbc_catalog/")
 install(FILES ${python_files} "${python_build}/installed/_build.py" DESTINATION "${CBC_PYTHON_DIR}/cbc_catalog"
         COMPONENT python)
-install(DIRECTORY "${python_build}/${dist_info}" DESTINATION "${CBC_PYTHON_DIR}" COMPONENT python)
+if(NOT SKBUILD) # which writes its own
+  install(DIRECTORY "${python_build}/${dist_info}" DESTINATION "${CBC_PYTHON_DIR}" COMPONENT python)
+endif()

@@ -36,7 +36,7 @@ GITHUB_REF_NAME=v$version bash -c "$check" || fail "the tag v$version is refused
 
 # What the commands of ./dev make is found under the names of the workflow.
 mkdir -p build/package build/static
-touch build/package/behavior-catalog-compiler_"$version"-1_amd64.deb build/static/cbc
+touch build/package/behavior-catalog-compiler_"$version"-1~debian12_amd64.deb build/static/cbc
 grep -q 'build/static/cbc' "$source/dev" || fail "./dev static makes another file"
 GITHUB_REF_NAME=v$version bash -c "$(step 'cp build/static/cbc')"
 [[ -f build/cbc-$version-linux-$(uname -m) ]] || fail "the program has no name of its own"

@@ -46,7 +46,7 @@ TEST_F(Sweep, WritesTheSlowestEventAsAScript) {
       {"sweep", catalog, "--sequences", "50", "--slowest", "slowest.yaml", "--format", "json"}));
   const std::string report = call({"solve", catalog, "slowest.yaml", "--format", "json"});
   EXPECT_EQ(nodes_of(report, sweep["slowest"]["event"]), sweep["slowest"]["nodes"]);
-  EXPECT_EQ(scratch.read("slowest.yaml"), sweep["slowest"]["script"]);
+  EXPECT_EQ(scratch.read("slowest.yaml"), sweep["slowest"]["script"].get<std::string>());
 }
 
 TEST_F(Sweep, WritesTheEventThatTookLongestAsAScript) {

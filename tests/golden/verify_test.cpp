@@ -61,7 +61,7 @@ TEST_F(Verify, WritesTheScriptsOfOutcomes) {
   for (const auto& group : report["groups"]) {
     for (const auto& outcome : group["outcomes"]) {
       const std::string name = "cart.outcome-" + std::to_string(++outcomes) + ".mission.yaml";
-      EXPECT_EQ(scratch.read(name), outcome["script"]);
+      EXPECT_EQ(scratch.read(name), outcome["script"].get<std::string>());
       const Result solved =
           run({{"solve", "tests/golden/shared/verify_outcomes/catalog.yaml", scratch / name},
                CBC_SOURCE_DIR});

@@ -6,7 +6,7 @@ set -u
 
 # Debian's packages for Python are for this one.
 /usr/bin/python3 -c 'import clang.cindex; clang.cindex.Index.create()' 2>/dev/null || {
-  echo "check.sh: skipped: there is no libclang for Python (Debian package python3-clang-14)" >&2
+  echo "check.sh: skipped: there is no libclang for Python (Debian package python3-clang)" >&2
   exit 77
 }
 exec /usr/bin/python3 -B "$(dirname -- "$0")/points_test.py"

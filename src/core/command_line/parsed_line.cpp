@@ -73,7 +73,10 @@ class Splitter {
     app.set_help_flag();
     app.allow_extras();
     for (const Option& option : command.options()) {
-      const std::string names = fmt::format("{}", fmt::join(option.names, ","));
+      // CLI11 takes no blanks in the names of arguments, and never shows them here.
+      const std::string names = option.is_argument
+                                    ? fmt::format("ARGUMENT{}", options_.size())
+                                    : fmt::format("{}", fmt::join(option.names, ","));
       CLI::Option* const added = option.is_flag ? app.add_flag(names) : app.add_option(names);
       added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
       if (option.is_argument && option.is_repeatable) added->expected(-1);

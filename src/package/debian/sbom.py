@@ -18,16 +18,16 @@ import re
 import subprocess
 import time
 
-# Licenses by names of Debian's source packages; NOASSERTION for others.
+# Licenses by names of Debian's source packages, without their versions; NOASSERTION for others.
 LICENSES = {
-    "boost1.74": "BSL-1.0",
+    "boost": "BSL-1.0",
     "cli11": "BSD-3-Clause",
     "flatbuffers": "Apache-2.0",
     "fmtlib": "MIT",
-    "gcc-12": "GPL-3.0-or-later WITH GCC-exception-3.1",
+    "gcc": "GPL-3.0-or-later WITH GCC-exception-3.1",
     "glibc": "LGPL-2.1-or-later",
     "linux": "GPL-2.0-only WITH Linux-syscall-note",
-    "nlohmann-json3": "MIT",
+    "nlohmann-json": "MIT",
     "xxhash": "BSD-2-Clause",
     "yaml-cpp": "MIT",
 }
@@ -93,7 +93,7 @@ def describe(package):
         "filesAnalyzed": False,
         "sourceInfo": f"built from the Debian source package {source} {source_version}",
         "licenseConcluded": "NOASSERTION",
-        "licenseDeclared": LICENSES.get(source, "NOASSERTION"),
+        "licenseDeclared": LICENSES.get(re.sub(r"-?[0-9.]+$", "", source), "NOASSERTION"),
         "copyrightText": "NOASSERTION",
         "externalRefs": [reference("debian", name, version, architecture)],
     }

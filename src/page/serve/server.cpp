@@ -210,8 +210,9 @@ class Server::Loop::Connection : public std::enable_shared_from_this<Connection>
 
   /// Nobody is there, or what comes is not HTTP at all.
   static bool is_gone(error_code error) {
-    const auto& of_requests = http::make_error_code(http::error::bad_method).category();
-    return error == http::error::end_of_stream || (error && error.category() != of_requests);
+    const error_code of_request = http::error::bad_method;
+    return error == http::error::end_of_stream ||
+           (error && error.category() != of_request.category());
   }
 
   static std::string refusal_of(error_code error) {

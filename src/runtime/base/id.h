@@ -33,6 +33,8 @@ class Id {
 
   friend constexpr bool operator==(Id a, Id b) = default;
   friend constexpr auto operator<=>(Id a, Id b) = default;
+  /// In the texts of fmt, from its version 10 on.
+  friend constexpr std::uint32_t format_as(Id id) { return id.number_; }
 
  private:
   std::uint32_t number_ = 0;
