@@ -69,6 +69,8 @@ def packages_of(paths):
                           check=False, text=True)
     owned = set()
     for line in done.stdout.splitlines():
+        if re.match(r"(local )?diversion ", line):  # of a file that another package had, and has no more
+            continue
         owners, path = line.split(": ", 1)
         names.update(owners.split(", "))
         owned.add(os.path.realpath(path))
