@@ -32,6 +32,8 @@ make_root() {
   rm -rf --one-file-system -- "$root"
   mmdebstrap --variant=apt --skip=cleanup/apt/lists "${@:2}" "$1" "$root" >"$work/root.log" 2>&1 ||
     skip "mmdebstrap failed: $(grep -m 3 '^[EW]' "$work/root.log" || cat "$work/root.log")"
+  # A proxy on the way to npm's packages may have a certificate that only this machine knows.
+  [[ ! -e /etc/ssl/certs/ca-certificates.crt ]] || cp /etc/ssl/certs/ca-certificates.crt "$root/root/certificates.crt"
 }
 
 remove_root() { rm -rf --one-file-system -- "$root"; }
@@ -70,6 +72,7 @@ at_sources() {
     mount -t proc proc "$root/proc"
     mount --rbind /dev "$root/dev"
     mount --rbind /sys "$root/sys"
-    exec chroot "$root" env -i -C /root/cbc PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 "$@"' \
+    exec chroot "$root" env -i -C /root/cbc PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
+      NODE_EXTRA_CA_CERTS=/root/certificates.crt "$@"' \
     sh "$root" "$@"
 }
