@@ -25,7 +25,7 @@ int serve() {
     return usage_error("lsp", "an editor starts this command; there is nothing to type here");
   }
   lsp::Server server(stdout);
-  return server.run(stdin);
+  return server.run(STDIN_FILENO);
 }
 
 }  // namespace

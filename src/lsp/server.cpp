@@ -100,10 +100,11 @@ Server::Server(std::FILE* output) : output_(output) {
   add_notifications();
 }
 
-int Server::run(std::FILE* input) {
+int Server::run(int input) {
   // It may wait for input that never comes, so it is left alone at the end.
   std::thread([inbox = inbox_, input] {
-    while (auto message = read_message(input)) {
+    MessageReader reader(input);
+    while (auto message = reader.next()) {
       Json parsed = parse(*message);
       inbox->put(std::move(parsed));
     }

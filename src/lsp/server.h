@@ -28,9 +28,9 @@ class Server {
   /// Answers go to `output`, which nothing else may write to.
   explicit Server(std::FILE* output);
 
-  /// Serves until the client says `exit`, or is gone. Returns the exit status: 0 if the client has
-  /// asked for the shutdown before.
-  [[nodiscard]] int run(std::FILE* input);
+  /// Serves what comes from a file descriptor until the client says `exit`, or is gone. Returns the
+  /// exit status: 0 if the client has asked for the shutdown before.
+  [[nodiscard]] int run(int input);
 
  private:
   struct Proved {

@@ -26,6 +26,7 @@ expect() {
 }
 
 replace dpkg-query <<<'for package; do echo "install ok installed $package"; done'
+replace clang-format <<<'echo "clang-format version 14.0.6"'
 replace xargs <<<'cat >/dev/null; exit 0'
 expect 0 'dev format: passed'
 replace xargs <<<'cat >/dev/null; exit 3'

@@ -1,9 +1,11 @@
 // What `cbc graph` makes of files, terminals and Graphviz; the cases have the rest.
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
@@ -173,7 +175,13 @@ TEST(Graph, PicturesDoNotDependOnTheClock) {
   const ScratchFolder folder;
   const Result picture = graph(folder.path(), {catalog().string(), "--format", "pdf"});
   EXPECT_EQ(picture.status, 0);
-  EXPECT_NE(picture.out.find("/CreationDate (D:19700101"), std::string::npos);
+  if (picture.out.find("/CreationDate") == std::string::npos) {
+    // Newer versions of Cairo compress it.
+    std::this_thread::sleep_for(std::chrono::milliseconds(1'100));
+    EXPECT_EQ(graph(folder.path(), {catalog().string(), "--format", "pdf"}).out, picture.out);
+  } else {
+    EXPECT_NE(picture.out.find("/CreationDate (D:19700101"), std::string::npos);
+  }
 }
 
 TEST(Graph, WithoutGraphvizAPictureIsRefused) {

@@ -1,7 +1,9 @@
 #include "lsp/protocol/frames.h"
 
-#include <array>
+#include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <unistd.h>
 
 #include <fmt/core.h>
 
@@ -9,20 +11,6 @@ namespace cbc::lsp {
 namespace {
 
 constexpr std::size_t longest_header = 4096;
-
-/// Without its line break; empty at the end of the stream, or if it is too long.
-std::optional<std::string> read_header(std::FILE* stream) {
-  std::string line;
-  for (int byte = std::fgetc(stream); byte != EOF; byte = std::fgetc(stream)) {
-    if (byte == '\n') {
-      if (!line.empty() && line.back() == '\r') line.pop_back();
-      return line;
-    }
-    if (line.size() == longest_header) break;
-    line += static_cast<char>(byte);
-  }
-  return std::nullopt;
-}
 
 std::optional<std::size_t> length_in(std::string_view header) {
   constexpr std::string_view name = "content-length:";
@@ -42,22 +30,46 @@ std::optional<std::size_t> length_in(std::string_view header) {
 
 }  // namespace
 
-std::optional<std::string> read_message(std::FILE* stream) {
+bool MessageReader::fill() {
+  if (begin_ < end_) return true;
+  ssize_t count = 0;
+  do {
+    count = ::read(input_, block_.data(), block_.size());
+  } while (count < 0 && errno == EINTR);
+  begin_ = 0;
+  end_ = count > 0 ? static_cast<std::size_t>(count) : 0;
+  return count > 0;
+}
+
+/// Without its line break; empty at the end of the input, or if it is too long.
+std::optional<std::string> MessageReader::read_header() {
+  std::string line;
+  while (line.size() <= longest_header && fill()) {
+    const char byte = block_[begin_++];
+    if (byte == '\n') {
+      if (!line.empty() && line.back() == '\r') line.pop_back();
+      return line;
+    }
+    line += byte;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> MessageReader::next() {
   std::optional<std::size_t> length;
   for (;;) {
-    const std::optional<std::string> header = read_header(stream);
+    const std::optional<std::string> header = read_header();
     if (!header) return std::nullopt;
     if (header->empty()) break;
     if (const auto found = length_in(*header)) length = found;
   }
   if (!length || *length > largest_message) return std::nullopt;
   std::string message;
-  std::array<char, 1 << 16> block{};
   while (message.size() < *length) {
-    const std::size_t wanted = std::min(block.size(), *length - message.size());
-    const std::size_t count = std::fread(block.data(), 1, wanted, stream);
-    if (count == 0) return std::nullopt;
-    message.append(block.data(), count);
+    if (!fill()) return std::nullopt;
+    const std::size_t count = std::min(end_ - begin_, *length - message.size());
+    message.append(&block_[begin_], count);
+    begin_ += count;
   }
   return message;
 }

@@ -63,3 +63,4 @@ class CatalogError(Error):
 
 for _class in (Finding, Error, UsageError, UnknownName, CatalogError):
     _class.__module__ = "cbc_catalog"  # where people know them from
+del _class

@@ -148,3 +148,4 @@ class Report(Record):
 
 for _class in (Record, Report):
     _class.__module__ = "cbc_catalog"  # where people know them from
+del _class
