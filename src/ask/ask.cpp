@@ -10,6 +10,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "ask/conflict/quickxplain.h"
+
 namespace cbc {
 
 Asked asked_of(const CompiledCatalog& catalog, std::span<const Demand> demands) {
@@ -200,8 +202,11 @@ std::vector<Reason> RelaxedQuestions::conflict(std::span<const Reason> candidate
     std::size_t place = 0;
     std::erase_if(used, [&](const Reason& /*reason*/) { return !is_used[place++]; });
   }
-  std::vector<Reason> minimal = minimal_conflict_set(
-      used, [this](std::span<const Reason> some) { return solve(some) != Feasibility::no; });
+  const auto has_solution = [this](std::span<const Reason> some) {
+    return solve(some) != Feasibility::no;
+  };
+  std::vector<Reason> minimal =
+      QuickXplain<Reason, decltype(has_solution)>(has_solution).find(used);
   return effort_.left() == 0 ? std::vector<Reason>{} : minimal;
 }
 

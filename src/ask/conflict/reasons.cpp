@@ -87,45 +87,4 @@ void add_requirements(const CompiledCatalog& catalog, BehaviorId behavior,
   }
 }
 
-namespace {
-
-/// QuickXplain (U. Junker, "QuickXplain: preferred explanations and relaxations for
-/// over-constrained problems", AAAI 2004): appends the part of a minimal conflict set that lies in
-/// `candidates`, with all reasons of the `background` in force. `has_delta`: the background has new
-/// reasons since it was last found to leave a solution. No reason is preferred to another.
-void quickxplain(const HasSolution& has_solution, std::vector<Reason>& background, bool has_delta,
-                 std::span<const Reason> candidates, std::vector<Reason>& conflict_set) {
-  if (has_delta && !has_solution(background)) return;
-  if (candidates.size() == 1) {
-    conflict_set.push_back(candidates.front());
-    return;
-  }
-  const std::span<const Reason> first = candidates.first(candidates.size() / 2);
-  const std::span<const Reason> second = candidates.subspan(first.size());
-  const std::size_t background_before = background.size();
-  const std::size_t set_before = conflict_set.size();
-
-  background.insert(background.end(), first.begin(), first.end());
-  quickxplain(has_solution, background, true, second, conflict_set);
-  background.resize(background_before);
-
-  background.insert(background.end(),
-                    conflict_set.begin() + static_cast<std::ptrdiff_t>(set_before),
-                    conflict_set.end());
-  quickxplain(has_solution, background, background.size() > background_before, first, conflict_set);
-  background.resize(background_before);
-}
-
-}  // namespace
-
-std::vector<Reason> minimal_conflict_set(std::span<const Reason> candidates,
-                                         const HasSolution& has_solution) {
-  std::vector<Reason> background;
-  std::vector<Reason> conflict_set;
-  if (!candidates.empty()) {
-    quickxplain(has_solution, background, false, candidates, conflict_set);
-  }
-  return conflict_set;
-}
-
 }  // namespace cbc

@@ -3,7 +3,6 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -100,13 +99,5 @@ void add_minimum(const CompiledCatalog& catalog, TaskId task, std::vector<Reason
 /// Appends the requirements of a behavior: each task, and separately its minimum performance.
 void add_requirements(const CompiledCatalog& catalog, BehaviorId behavior,
                       std::vector<Reason>& reasons);
-
-/// Whether there is a solution with these reasons in force, and no others.
-using HasSolution = std::function<bool(std::span<const Reason>)>;
-
-/// A minimal conflict set out of `candidates`, which together leave no solution: with any reason of
-/// the set left out there is one.
-[[nodiscard]] std::vector<Reason> minimal_conflict_set(std::span<const Reason> candidates,
-                                                       const HasSolution& has_solution);
 
 }  // namespace cbc

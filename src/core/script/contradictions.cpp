@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "ask/conflict/quickxplain.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 
@@ -19,9 +20,10 @@ bool counts(Ground ground, const Reason& reason) {
          (ground == Ground::exclusions && reason.kind == Reason::Kind::exclusive);
 }
 
-bool is_possible(const Contradictions::Parts& parts, Ground ground, StateAsk& states) {
+bool is_possible(std::span<const Contradictions::Part* const> parts, Ground ground,
+                 StateAsk& states) {
   StateAsk::Formulas formulas;
-  for (const Contradictions::Part& part : parts) formulas.push_back(part.formula.get());
+  for (const Contradictions::Part* part : parts) formulas.push_back(part->formula.get());
   const Feasibility answer = ground == Ground::catalog
                                  ? states.find(formulas)
                                  : states.find_under(formulas, [ground](const Reason& reason) {
@@ -99,12 +101,15 @@ void Contradictions::add(const StateCondition& condition, Parts& parts) const {
 std::vector<Impossible> Contradictions::find(Parts& parts, Ground ground, StateAsk& states,
                                              const Reporter& reporter) const {
   std::vector<Impossible> found;
-  while (!states.effort().is_over() && !is_possible(parts, ground, states)) {
-    const Parts reason = minimal(parts, ground, states);
+  while (!states.effort().is_over()) {
+    std::vector<const Part*> left;
+    for (const Part& part : parts) left.push_back(&part);
+    if (is_possible(left, ground, states)) break;
+    const std::vector<const Part*> reason = minimal(left, ground, states);
     if (reason.empty()) break;  // there is no state at all
     found.push_back(describe(reason, ground, states, reporter));
-    std::erase_if(parts,
-                  [&](const Part& part) { return part.condition == reason.back().condition; });
+    const StateCondition* last = reason.back()->condition;
+    std::erase_if(parts, [last](const Part& part) { return part.condition == last; });
   }
   return found;
 }
@@ -131,24 +136,28 @@ std::vector<Impossible> Contradictions::take_misplaced(Parts& parts, Ground grou
   return found;
 }
 
-Contradictions::Parts Contradictions::minimal(Parts parts, Ground ground, StateAsk& states) const {
-  for (std::size_t place = parts.size(); place-- > 0;) {
-    Parts without = parts;
-    without.erase(without.begin() + static_cast<std::ptrdiff_t>(place));
-    if (!is_possible(without, ground, states)) parts = std::move(without);
-  }
-  return parts;
+std::vector<const Contradictions::Part*> Contradictions::minimal(std::span<const Part* const> parts,
+                                                                 Ground ground,
+                                                                 StateAsk& states) const {
+  if (!is_possible({}, ground, states)) return {};
+  const auto has_state = [&](std::span<const Part* const> some) {
+    return is_possible(some, ground, states);
+  };
+  std::vector<const Part*> found =
+      QuickXplain<const Part*, decltype(has_state)>(has_state).find(parts);
+  std::reverse(found.begin(), found.end());
+  return found;
 }
 
-Impossible Contradictions::describe(const Parts& parts, Ground ground, StateAsk& states,
-                                    const Reporter& reporter) const {
+Impossible Contradictions::describe(std::span<const Part* const> parts, Ground ground,
+                                    StateAsk& states, const Reporter& reporter) const {
   constexpr std::size_t most_parts = 3;
   Impossible impossible;
-  impossible.range = parts.back().condition->range;
+  impossible.range = parts.back()->condition->range;
   StateAsk::Formulas formulas;
   for (std::size_t place = 0; place < parts.size(); ++place) {
-    const StateCondition& condition = *parts[place].condition;
-    formulas.push_back(parts[place].formula.get());
+    const StateCondition& condition = *parts[place]->condition;
+    formulas.push_back(parts[place]->formula.get());
     if (place < most_parts) {
       impossible.why += (place == 0 ? "" : " and ") + words_of(condition);
     }

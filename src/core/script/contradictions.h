@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,9 +60,10 @@ class Contradictions {
                                              const Reporter& reporter) const;
 
  private:
-  [[nodiscard]] Parts minimal(Parts parts, Ground ground, StateAsk& states) const;
-  [[nodiscard]] Impossible describe(const Parts& parts, Ground ground, StateAsk& states,
-                                    const Reporter& reporter) const;
+  [[nodiscard]] std::vector<const Part*> minimal(std::span<const Part* const> parts, Ground ground,
+                                                 StateAsk& states) const;
+  [[nodiscard]] Impossible describe(std::span<const Part* const> parts, Ground ground,
+                                    StateAsk& states, const Reporter& reporter) const;
   [[nodiscard]] std::string words_of(const StateCondition& condition) const;
 
   const CompiledCatalog& catalog_;
