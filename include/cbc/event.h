@@ -9,8 +9,9 @@
 
 namespace cbc {
 
-/// What an event asks for or reports.
-enum class Verb : std::uint8_t { start, stop, finish, situation, fault, repair, wait };
+/// What an event asks for or reports. `reconsider` is none of a script: after a situation or a
+/// repair, a group is decided anew.
+enum class Verb : std::uint8_t { start, stop, finish, situation, fault, repair, wait, reconsider };
 
 /// Why a behavior finished. `goal_achieved` is success, `situation_change` a situation change, the
 /// others are failures.
@@ -24,15 +25,17 @@ enum class FinishCause : std::uint8_t {
 };
 
 /// Where an event comes from: a script (or a program), a timeout, the start of a reactive task, a
-/// failed rollback, or a situation that a behavior does not fit any more.
-enum class Origin : std::uint8_t { script, timeout, reactive, fault, situation };
+/// failed rollback, a situation that a behavior does not fit any more or that makes more possible,
+/// or a repair.
+enum class Origin : std::uint8_t { script, timeout, reactive, fault, situation, repair };
 
 enum class Outcome : std::uint8_t { accepted, rejected, unchanged };
 
 /// Why a behavior was activated or deactivated.
 enum class ChangeCause : std::uint8_t {
   requested,  ///< its task has a request of priority >= 1, or is the task of a stop event
-  reactive,   ///< its task has a request of priority 0
+  resumed,    ///< its task had a suspended request
+  reactive,   ///< its task has a request of priority 0, or starts by itself
   required,   ///< its task has no request
   replaced,   ///< its task continues with another behavior
   displaced,  ///< its task had a request

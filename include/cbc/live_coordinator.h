@@ -39,6 +39,7 @@ enum class [[nodiscard]] LiveStatus : std::uint8_t{
     unknown_behavior,    ///< the same of a behavior, also in a situation
     unknown_variable,    ///< the catalog has no situation variable of this index
     unknown_value,       ///< the situation variable has no value of this index
+    not_requestable,     ///< of a start: nobody may request the task
     /// So many events fell due that the clock did not reach the time of the call, and its event was
     /// not handled: process events(), and repeat the call.
     too_many_events,

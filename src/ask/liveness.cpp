@@ -44,6 +44,9 @@ class DirectAssignment {
  private:
   [[nodiscard]] bool is_running(TaskId task) const { return running_[task] == number_; }
   [[nodiscard]] bool take(ValueId value);
+  [[nodiscard]] bool is_left_to_search(TaskId task) const {
+    return catalog_.tasks[task].minimum_performance > 0 || !catalog_.limits_of(task).empty();
+  }
   [[nodiscard]] ValueId choose(TaskId task, const std::vector<bool>& is_dead,
                                const std::vector<bool>& is_live) const;
 
@@ -84,7 +87,7 @@ const std::vector<ValueId>& DirectAssignment::find(ValueId value, const std::vec
 
 bool DirectAssignment::extend(ValueId value) {
   const TaskId task = catalog_.task_of(value);
-  if (values_.empty() || catalog_.tasks[task].minimum_performance > 0) return false;
+  if (values_.empty() || is_left_to_search(task)) return false;
   for (const CompiledRequirement& requirement :
        catalog_.requirements[catalog_.values.items[value].behavior]) {
     if (requirement.minimum_performance > 0 || !is_running(requirement.task)) return false;
@@ -98,7 +101,7 @@ bool DirectAssignment::extend(ValueId value) {
 
 bool DirectAssignment::take(ValueId value) {
   const TaskId task = catalog_.task_of(value);
-  if (effort_left_ == 0 || catalog_.tasks[task].minimum_performance > 0) return false;
+  if (effort_left_ == 0 || is_left_to_search(task)) return false;
   --effort_left_;
   for (const std::uint32_t clique : catalog_.task_cliques[task]) {
     if (used_[clique] == number_) return false;

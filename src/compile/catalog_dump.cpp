@@ -92,6 +92,27 @@ constexpr auto task =
                [](TaskId of, const CompiledCatalog& in) {
                  return task_at(of, in).reactive_start != 0;
                }),
+        optional("requestable", boolean, "Only where false: nobody may request it.",
+                 [](TaskId of, const CompiledCatalog& in) {
+                   return in.rules_of(of).requestable != 0 ? std::nullopt : std::optional(false);
+                 }),
+        optional("reactive_priority", integer(1), "Where it is not 0.",
+                 [](TaskId of, const CompiledCatalog& in) {
+                   const std::int32_t priority = in.rules_of(of).reactive_priority;
+                   return priority == 0 ? std::nullopt : std::optional(priority);
+                 }),
+        optional("improve", WordList<3>{{"at_events", "at_once", "when_started"}},
+                 "When it gets a more suitable behavior, where that is not at_events.",
+                 [](TaskId of, const CompiledCatalog& in) {
+                   const Improve improve = in.rules_of(of).improve;
+                   return improve == Improve::at_events
+                              ? std::nullopt
+                              : std::optional(static_cast<std::size_t>(improve));
+                 }),
+        optional("resume", boolean, "Only where true: its request is suspended if it is stopped.",
+                 [](TaskId of, const CompiledCatalog& in) {
+                   return in.rules_of(of).resume == 0 ? std::nullopt : std::optional(true);
+                 }),
         timeout_of("Timeout in seconds; null: none.")(task_at), minimum(task_at),
         member("line", nullable(line_number),
                "The line of the minimum performance in the source; null without one.",
@@ -131,6 +152,13 @@ constexpr auto behavior = object(
              return in.texts[in.behavior_packages[behavior_at(of, in).catalog_index]];
            }),
     timeout_of("Timeout in seconds; null: the timeout of the task.")(behavior_at),
+    optional("retry", WordList<3>{{"at_events", "when_started", "after_repair"}},
+             "When it is tried again after a failure, where that is not at_events.",
+             [](BehaviorId of, const CompiledCatalog& in) {
+               const Retry retry = in.retry_of(of);
+               return retry == Retry::at_events ? std::nullopt
+                                                : std::optional(static_cast<std::size_t>(retry));
+             }),
     member("situation", conditions,
            "For each situation variable that it names, the values in which it fits.",
            [](BehaviorId of, const CompiledCatalog& in) {
@@ -151,6 +179,15 @@ constexpr auto exclusion =
                   [](std::uint32_t of, const CompiledCatalog& in) { return in.cliques[of]; }),
            member("line", line, "",
                   [](std::uint32_t of, const CompiledCatalog& in) { return in.clique_lines[of]; }));
+
+constexpr auto limit =
+    object("limit", "At most so many of the tasks may run.",
+           member("tasks", tasks.at_least(2), "",
+                  [](std::uint32_t of, const CompiledCatalog& in) { return in.limited[of]; }),
+           member("at_most", integer(2), "",
+                  [](std::uint32_t of, const CompiledCatalog& in) { return in.limits[of].most; }),
+           member("line", line, "",
+                  [](std::uint32_t of, const CompiledCatalog& in) { return in.limits[of].line; }));
 
 constexpr auto numbers =
     group(member("levels", count, "1 + the highest level of any task.", &CatalogNumbers::levels)
@@ -190,6 +227,17 @@ constexpr auto group_of_tasks = object(
         "exclusivity", list(exclusion).on_lines(),
         "Lists of tasks that exclude one another, ordered by their first task.",
         [](const Group& of, const CompiledCatalog& in) { return cliques_of_group(in, of.place); })
+        .on_line(),
+    optional("limits", list(limit).on_lines(),
+             "Lists of tasks of which several may run, if there are any.",
+             [](const Group& of, const CompiledCatalog& in) {
+               std::vector<std::uint32_t> limits;
+               for (TaskId id = in.group_tasks[of.place]; id < in.group_tasks[of.place + 1]; ++id) {
+                 const std::vector<std::uint32_t> from = limits_from(in, id);
+                 limits.insert(limits.end(), from.begin(), from.end());
+               }
+               return limits.empty() ? std::nullopt : std::optional(limits);
+             })
         .on_line());
 
 struct Report {

@@ -122,8 +122,10 @@ void Session::open(const JsonValue& request, JsonWriter& answer) {
   begin({});
   answer.write_json("catalog", catalog_of_page(*catalog_));
   answer.open("requestable", '[');
-  for (const CompiledTask& task : catalog_->tasks) {
-    if (task.start_on_request != 0) answer.write(catalog_->task_names[task.catalog_index]);
+  for (const TaskId task : catalog_->task_ids) {
+    if (catalog_->tasks[task].start_on_request != 0 && catalog_->rules_of(task).requestable != 0) {
+      answer.write(catalog_->name_of_task(task));
+    }
   }
   answer.close(']');
   tell_present(answer);

@@ -209,8 +209,8 @@ void ConfigurationSearch::insert(Subproblem subproblem, std::size_t most,
 }
 
 std::string_view name_of(Criterion criterion) {
-  static constexpr std::array<std::string_view, 6> names{"requests", "request_order", "suitability",
-                                                         "idle",     "changes",       "canonical"};
+  static constexpr std::array<std::string_view, 7> names{
+      "requests", "request_order", "asked", "suitability", "idle", "changes", "canonical"};
   return names[static_cast<std::size_t>(criterion)];
 }
 
@@ -221,12 +221,12 @@ void Comparison::load(const Problem& problem, const ObjectiveValues& elsewhere) 
   order_.load(problem);
 }
 
-Configuration Comparison::evaluate(Assignment assignment) const {
+Configuration Comparison::evaluate(Assignment assignment) {
   Configuration configuration;
   ObjectiveValues& objective = configuration.objective;
   objective = elsewhere_;
-  objective.requests += static_cast<std::uint32_t>(problem_->requests.size());
-  for (const LocalTask task : problem_->requests) {
+  objective.requests += static_cast<std::uint32_t>(problem_->counted_requests().size());
+  for (const LocalTask task : problem_->counted_requests()) {
     if (assignment[task] != none) ++objective.satisfied;
   }
   for (LocalTask task(0); task < assignment.size(); ++task) {
@@ -235,6 +235,9 @@ Configuration Comparison::evaluate(Assignment assignment) const {
     }
   }
   objective.changes = count_changes(assignment);
+  if (problem_->unasked > 0) {
+    configuration.asked = asked_.of(first_task_, assignment, problem_->asked_requests());
+  }
   configuration.assignment = std::move(assignment);
   return configuration;
 }
@@ -261,24 +264,15 @@ Difference Comparison::compare(const Configuration& a, const Configuration& b) {
     difference.first_is_better = first_is_better;
     return difference;
   };
-  // The most important requests that only one of the two satisfies.
-  TaskId only_first = none;
-  TaskId only_second = none;
-  for (const LocalTask task : problem_->requests) {
-    const bool first_runs = a.assignment[task] != none;
-    const bool second_runs = b.assignment[task] != none;
-    if (first_runs && !second_runs && only_first == none) only_first = first_task_ + task;
-    if (second_runs && !first_runs && only_second == none) only_second = first_task_ + task;
-    if (difference.task == none && first_runs != second_runs) difference.task = first_task_ + task;
-  }
   if (a.objective.satisfied != b.objective.satisfied) {
-    difference.task = none;
     return decide(Criterion::requests, a.objective.satisfied > b.objective.satisfied);
   }
-  if (difference.task != none) {
-    const bool first_is_better = difference.task == only_first;
-    difference.other_task = first_is_better ? only_second : only_first;
-    return decide(Criterion::request_order, first_is_better);
+  if (decide_by_order(a, b, problem_->asked_requests(), difference)) return difference;
+  if (problem_->unasked > 0) {
+    if (const auto order = asked_.compare(a.asked, b.asked); order != 0) {
+      return decide(Criterion::asked, order < 0);
+    }
+    if (decide_by_order(a, b, problem_->unasked_requests(), difference)) return difference;
   }
   if (const auto order = compare_suitability(a.assignment, b.assignment); order != 0) {
     return decide(Criterion::suitability, order > 0);
@@ -294,6 +288,25 @@ Difference Comparison::compare(const Configuration& a, const Configuration& b) {
   difference.task = first_task_ + task;
   return decide(Criterion::canonical,
                 order_.key(task, a.assignment[task]) < order_.key(task, b.assignment[task]));
+}
+
+/// By the most important request that only one of the two satisfies, if there is one.
+bool Comparison::decide_by_order(const Configuration& a, const Configuration& b,
+                                 std::span<const LocalTask> requests, Difference& difference) {
+  TaskId only_first = none;
+  TaskId only_second = none;
+  for (const LocalTask task : requests) {
+    const bool first_runs = a.assignment[task] != none;
+    const bool second_runs = b.assignment[task] != none;
+    if (first_runs && !second_runs && only_first == none) only_first = first_task_ + task;
+    if (second_runs && !first_runs && only_second == none) only_second = first_task_ + task;
+    if (difference.task == none && first_runs != second_runs) difference.task = first_task_ + task;
+  }
+  if (difference.task == none) return false;
+  difference.criterion = Criterion::request_order;
+  difference.first_is_better = difference.task == only_first;
+  difference.other_task = difference.first_is_better ? only_second : only_first;
+  return true;
 }
 
 std::strong_ordering Comparison::compare_suitability(const Assignment& a, const Assignment& b) {

@@ -19,12 +19,15 @@ namespace cbc {
 struct Configuration {
   Assignment assignment;
   ObjectiveValues objective;
+  /// The suitabilities of what was asked for, apart from 1, where something runs unasked.
+  AskedProduct::Factors asked;
 };
 
 /// What decides between two solutions, in order.
 enum class Criterion : std::uint8_t {
   requests,       ///< f1
   request_order,  ///< the first request that only one of them satisfies
+  asked,          ///< the suitability of what was asked for, where something runs unasked
   suitability,    ///< f2
   idle,           ///< f3
   changes,        ///< f4
@@ -45,23 +48,27 @@ struct Difference {
 /// but the canonical order.
 class Comparison {
  public:
-  explicit Comparison(const CompiledCatalog& catalog) : catalog_(catalog), order_(catalog) {}
+  explicit Comparison(const CompiledCatalog& catalog)
+      : catalog_(catalog), order_(catalog), asked_(catalog) {}
 
   /// Sets the problem, which must outlive its use. `elsewhere`: the objectives of all other
   /// groups, but for idle_total, which is that of the whole catalog.
   void load(const Problem& problem, const ObjectiveValues& elsewhere);
 
-  [[nodiscard]] Configuration evaluate(Assignment assignment) const;
+  [[nodiscard]] Configuration evaluate(Assignment assignment);
 
   /// The two must differ.
   [[nodiscard]] Difference compare(const Configuration& a, const Configuration& b);
 
  private:
   [[nodiscard]] std::uint32_t count_changes(const Assignment& assignment) const;
+  [[nodiscard]] bool decide_by_order(const Configuration& a, const Configuration& b,
+                                     std::span<const LocalTask> requests, Difference& difference);
   [[nodiscard]] std::strong_ordering compare_suitability(const Assignment& a, const Assignment& b);
 
   const CompiledCatalog& catalog_;
   CanonicalOrder order_;
+  AskedProduct asked_;
   const Problem* problem_ = nullptr;
   ObjectiveValues elsewhere_;
   TaskId first_task_;

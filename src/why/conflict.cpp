@@ -10,15 +10,21 @@
 namespace cbc {
 namespace {
 
-/// Why a behavior is not available: a script denied it, or it does not fit. `fit_first`: what to
-/// say if both hold.
+/// Why a behavior is not available: a script denied it, it does not fit, or it has failed and is
+/// not tried again. `fit_first`: what to say if the first two hold.
 Reason unavailability(const CompiledCatalog& catalog, const State& state, BehaviorId behavior,
                       bool fit_first) {
   Reason reason;
   reason.behavior = behavior;
   const bool is_denied = state.is_denied(behavior) && (state.fits(behavior) || !fit_first);
-  reason.kind = is_denied ? Reason::Kind::unavailable : Reason::Kind::situation;
-  if (!is_denied) {
+  if (is_denied) {
+    reason.kind = Reason::Kind::unavailable;
+  } else if (state.fits(behavior)) {
+    reason.kind = Reason::Kind::not_retried;
+    reason.time = state.failed_at(behavior);
+    reason.line = catalog.retry_lines[behavior];
+  } else {
+    reason.kind = Reason::Kind::situation;
     reason.variable = *catalog.find_misfit(behavior, state.variables());
     reason.value = state.value_of(reason.variable);
   }
@@ -85,18 +91,39 @@ class Candidates {
   }
 
   void add_state(TaskId task) {
-    if (task == trigger_.task) return;
     Reason reason;
     reason.task = task;
+    if (may_not_improve(task)) {
+      reason.kind = Reason::Kind::not_improved;
+      reason.behavior = state_.behavior(task);
+      reason.line = catalog_.improve_lines[task];
+      reasons_.push_back(reason);
+      reason = {};
+      reason.task = task;
+    }
+    if (task == trigger_.task) return;
     if (is_protected(task)) {
       reason.kind = Reason::Kind::is_protected;
       reason.priority = state_.request(task).priority;
-      reason.is_from_any_request = trigger_.is_reactive;
+      reason.is_from_any_request = trigger_.is_unasked();
       reasons_.push_back(reason);
-    } else if (!state_.is_running(task) && catalog_.tasks[task].start_on_request) {
+    } else if (!state_.is_running(task) && catalog_.tasks[task].start_on_request &&
+               (!state_.is_suspended(task) || trigger_.is_unasked())) {
       reason.kind = Reason::Kind::on_request;
       reasons_.push_back(reason);
     }
+  }
+
+  /// Whether the task keeps its behavior, or gets a worse one.
+  [[nodiscard]] bool may_not_improve(TaskId task) const {
+    const bool is_started =
+        trigger_.kind == Trigger::Kind::start && !trigger_.is_reactive && task == trigger_.task;
+    if (is_started || !state_.is_running(task) ||
+        catalog_.rules_of(task).improve != Improve::when_started) {
+      return false;
+    }
+    const auto values = catalog_.values[task];
+    return values.front().suitability > values[state_.value_index(task)].suitability;
   }
 
   /// Whether the behavior was active before the event, apart from one that has finished. Read off
@@ -143,6 +170,8 @@ bool is_about_behaviors(const Reason& reason) {
     case Reason::Kind::unavailable:
     case Reason::Kind::situation:
     case Reason::Kind::faulty:
+    case Reason::Kind::not_retried:
+    case Reason::Kind::not_improved:
     case Reason::Kind::finished:
       return true;
     default:
@@ -224,6 +253,8 @@ Demands demands_of(const CompiledCatalog& catalog, const State& state, const Tri
       return {{Demand::Kind::run, trigger.task, none}};
     case Trigger::Kind::stop:
       return {{Demand::Kind::stop, trigger.task, none}};
+    case Trigger::Kind::reconsider:
+      return {};
     case Trigger::Kind::finish:
       break;
   }
@@ -327,6 +358,12 @@ Reason reason_of(const Trigger& trigger) {
 
 std::vector<Reason> find_conflict(const CompiledCatalog& catalog, const EventRecord& record,
                                   const Circumstances& circumstances) {
+  if (record.search != nullptr && record.search->makes_worse) {
+    Reason reason;
+    reason.kind = Reason::Kind::makes_worse;
+    reason.task = circumstances.trigger.task;
+    return {reason};
+  }
   const bool is_proven =
       record.search == nullptr || record.search->result.status == SearchStatus::infeasible;
   return is_proven ? find_conflict(catalog, circumstances) : std::vector<Reason>();
@@ -337,8 +374,9 @@ std::vector<Reason> find_conflict(const CompiledCatalog& catalog,
   const Trigger& trigger = circumstances.trigger;
   Reason reason;
   reason.task = trigger.task;
-  if (const Request* const request = circumstances.state.find_request(trigger.task);
-      request != nullptr && request->priority > trigger.priority) {
+  const Request* const request =
+      trigger.task == none ? nullptr : circumstances.state.find_own_request(trigger.task);
+  if (request != nullptr && request->priority > trigger.priority) {
     reason.kind = Reason::Kind::priority;
     reason.priority = request->priority;
     return {reason};
@@ -387,7 +425,8 @@ std::vector<Reason> hindrances_to_reactive_start(const CompiledCatalog& catalog,
   start.group = catalog.tasks[task].group;
   start.task = task;
   start.is_reactive = true;
-  return find_conflict(catalog, {state, start, 0, {}});
+  start.priority = catalog.rules_of(task).reactive_priority;
+  return find_conflict(catalog, {state, start, start.priority, {}});
 }
 
 }  // namespace cbc

@@ -18,6 +18,7 @@ std::vector<Reason> missing_requests(const CompiledCatalog& catalog,
     const auto missing = std::find_if(way.begin(), way.end(), [&](const Demand& demand) {
       return demands_run(demand, demand.task) && demand.task != circumstances.trigger.task &&
              !circumstances.state.is_running(demand.task) &&
+             !circumstances.state.is_suspended(demand.task) &&
              catalog.tasks[demand.task].start_on_request != 0;
     });
     if (missing == way.end()) return {};
@@ -37,7 +38,7 @@ RankedRequest ranked_request(const Circumstances& circumstances, TaskId task) {
   if (task == circumstances.trigger.task) {
     return {circumstances.trigger.priority, circumstances.trigger.time};
   }
-  const Request& request = circumstances.state.request(task);
+  const Request& request = *circumstances.state.find_own_request(task);
   return {request.priority, request.time};
 }
 
@@ -49,7 +50,7 @@ ObjectiveValues objectives_elsewhere(const CompiledCatalog& catalog, const State
   values.idle_total = state.idle_total();
   values.idle_running = state.idle_running();
   for (TaskId task = catalog.group_tasks[group]; task < catalog.group_tasks[group + 1]; ++task) {
-    if (state.has_request(task)) --values.requests;
+    if (state.is_counted(task)) --values.requests;
     if (state.is_running(task) && catalog.tasks[task].start_on_request == 0) {
       --values.idle_running;
     }
@@ -121,6 +122,8 @@ bool Explainer::is_in_group(const Subject& subject, GroupId group) const {
 
 void Explainer::explain_displaced(const Circumstances& circumstances, Explanation& explanation) {
   for (const LocalTask task : circumstances.problem->requests) {
+    const TaskId waiting = catalog_.group_tasks[circumstances.trigger.group] + task;
+    if (circumstances.state.is_suspended(waiting)) continue;  // it did not run before
     if (explanation.chosen.assignment[task] != none) continue;
     const TaskId id = catalog_.group_tasks[circumstances.trigger.group] + task;
     const Demands runs{{Demand::Kind::run, id, none}};
@@ -195,7 +198,9 @@ WhyNot Explainer::why_not(const Circumstances& circumstances, const Configuratio
     answer.difference = search_.comparison().compare(chosen, *answer.alternative);
     if (answer.difference.criterion == Criterion::request_order) {
       answer.request = ranked_request(circumstances, answer.difference.task);
-      answer.other_request = ranked_request(circumstances, answer.difference.other_task);
+      if (answer.difference.other_task != none) {
+        answer.other_request = ranked_request(circumstances, answer.difference.other_task);
+      }
     }
   } else if (auto reasons = find_conflict_with(catalog_, circumstances, ways)) {
     answer.conflict = std::move(*reasons);

@@ -19,12 +19,20 @@ void save_state(const CompiledCatalog& catalog, const State& state, GroupId grou
       entry.request = Request{request->priority, request->event, {}, request->time};
     }
   }
+  before.suspended.clear();
+  for (TaskId task = catalog.group_tasks[group]; task < catalog.group_tasks[group + 1]; ++task) {
+    if (!state.is_suspended(task)) continue;
+    const Request& request = *state.find_own_request(task);
+    before.suspended.emplace_back(task, Request{request.priority, request.event, {}, request.time});
+  }
   before.denied.clear();
   before.faulty.clear();
+  before.failed.clear();
   for (BehaviorId behavior = catalog.group_behaviors[group];
        behavior < catalog.group_behaviors[group + 1]; ++behavior) {
     if (state.is_denied(behavior)) before.denied.push_back(behavior);
     if (state.is_faulty(behavior)) before.faulty.push_back(behavior);
+    if (state.has_failed(behavior)) before.failed.emplace_back(behavior, state.failed_at(behavior));
   }
   before.variables = state.variables();
 }

@@ -42,7 +42,7 @@ TEST(Controls, AreThoseThatMovesLeadTo) {
 /// the control after its one move.
 class ForgettingSystem final : public ControlSystem {
  public:
-  ForgettingSystem() : ControlSystem(2, {}, 0) { actions_.emplace_back(); }
+  ForgettingSystem() : ControlSystem(2, {}, 0, false) { actions_.emplace_back(); }
 
   [[nodiscard]] const std::vector<std::uint32_t>& first_control() const override { return first_; }
   [[nodiscard]] std::vector<std::uint8_t> first_environment() const override { return {0, 0}; }

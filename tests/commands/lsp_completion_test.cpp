@@ -66,27 +66,27 @@ TEST(LspCompletion, OfKeys) {
   EXPECT_EQ(offered("tasks:\n- {task: A}\n|\nbehaviors: []", catalog_kind),
             "default_values: ; exclusivity_constraints: ; situation: ");
   EXPECT_EQ(offered("behaviors:\n- {behavior: A, task: B, |}", catalog_kind),
-            "package: ; requires: ; timeout: ; situation: ; suitability: ");
+            "package: ; requires: ; timeout: ; situation: ; suitability: ; retry: ");
   EXPECT_EQ(offered("behaviors:\n- {behavior: A, ta|: B}", catalog_kind),
-            "package; task; tasks; requires; timeout; situation; suitability");
+            "package; task; tasks; requires; timeout; situation; suitability; retry");
   EXPECT_EQ(offered("behaviors:\n- beh|", catalog_kind),
             "behavior: ; package: ; task: ; tasks: ; requires: ; timeout: ; situation: ; "
-            "suitability: ");
+            "suitability: ; retry: ");
   EXPECT_EQ(
       offered("{\"behaviors\": [{\"behavior\": \"A\", \"requires\": [{\"|\"}]}]}", catalog_kind),
       "\"task\": ; \"minimum_performance\": ");
   EXPECT_EQ(offered("- {start: A, |}", script_kind),
             "at: ; wait: ; priority: ; parameters: ; cause: ");
   EXPECT_EQ(offered("events:\n- expect: {|}", script_kind),
-            "outcome: ; running: ; stopped: ; active: ; active_includes: ");
+            "outcome: ; running: ; stopped: ; active: ; active_includes: ; suspended: ; failed: ");
   EXPECT_EQ(offered("- expect:\n    |", script_kind),
-            "outcome: ; running: ; stopped: ; active: ; active_includes: ");
+            "outcome: ; running: ; stopped: ; active: ; active_includes: ; suspended: ; failed: ");
   EXPECT_EQ(offered("- expect:\n    out|", script_kind),
-            "outcome: ; running: ; stopped: ; active: ; active_includes: ");
+            "outcome: ; running: ; stopped: ; active: ; active_includes: ; suspended: ; failed: ");
   EXPECT_EQ(
       offered("properties:\n- {never: {not: {any: [{|}]}}}", property_kind),
       "running: ; stopped: ; active: ; active_includes: ; faulty: ; available: ; requested: ; "
-      "situation: ; not: ; any: ; all: ");
+      "suspended: ; failed: ; situation: ; not: ; any: ; all: ");
   EXPECT_EQ(offered("assume: {faults: {most: 1, |}}", property_kind), "of: ; except: ");
   EXPECT_EQ(offered("|", FileKind::settings),
             "error: ; warn: ; note: ; allow: ; strict: ; never_together: ");
@@ -286,8 +286,9 @@ TEST(LspCompletion, SnippetsAreValid) {
     }
   }
   EXPECT_GE(checked[catalog_kind], 11U);
-  for (const std::string_view verb : words_of<Verb>())
-    EXPECT_TRUE(labels.contains(std::string(verb)));
+  for (const VerbForm& verb : scripted_verbs) {
+    EXPECT_TRUE(labels.contains(std::string(verb.name)));
+  }
   EXPECT_TRUE(labels.contains("expect"));
   for (const std::string_view kind : property_kinds)
     EXPECT_TRUE(labels.contains(std::string(kind)));

@@ -227,10 +227,23 @@ TEST(Sweep, MakesEventsOfAllKinds) {
   const SweepResult result = run(restless(), settings_of(200, 1));
   for (std::size_t kind = 0; kind < sweep_kinds; ++kind) {
     const OutcomeCounts& counts = result.counts.events[kind];
-    if (static_cast<SweepKind>(kind) == SweepKind::lost) continue;  // takes rare coincidences
+    if (static_cast<SweepKind>(kind) == SweepKind::lost) continue;        // takes rare coincidences
+    if (static_cast<SweepKind>(kind) == SweepKind::reconsider) continue;  // takes a key
     EXPECT_GT(counts.accepted + counts.rejected + counts.unchanged, 0U)
         << name_of(static_cast<SweepKind>(kind));
   }
+}
+
+TEST(Sweep, CountsGroupsThatAreReconsidered) {
+  const CompiledCatalog catalog = test::compile_text(
+      "situation: [{variable: LIGHT}]\n"
+      "tasks: [{task: LOCALIZE, improve: at_once}]\n"
+      "behaviors:\n"
+      "- {behavior: CAMERA, task: LOCALIZE, situation: {LIGHT: true}}\n"
+      "- {behavior: ODOMETRY, task: LOCALIZE, suitability: 50}\n");
+  const SweepResult result = run(catalog, settings_of(50, 1));
+  const auto kind = static_cast<std::size_t>(SweepKind::reconsider);
+  EXPECT_GT(result.counts.events[kind].accepted, 0U);
 }
 
 TEST(Sweep, KeepsToItsShape) {

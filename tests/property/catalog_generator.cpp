@@ -509,6 +509,32 @@ Microseconds pick_time_unit(Random& random) {
   return random.pick(units);
 }
 
+void add_further_keys(Random& random, Catalog& catalog) {
+  for (Task& task : catalog.tasks) {
+    if (!task.listed) {
+      continue;
+    }
+    task.requestable = task.start_on_request || !random.percent(25);
+    if (task.reactive_start && random.percent(55)) {
+      task.reactive_priority = static_cast<int>(random.between(1, 4));
+    }
+    if (random.percent(50)) {
+      task.improve = random.percent(50) ? Improve::at_once : Improve::when_started;
+    }
+    task.resume = task.requestable && !task.reactive_start &&
+                  task.improve != Improve::when_started && random.percent(60);
+  }
+  for (Behavior& behavior : catalog.behaviors) {
+    if (random.percent(65)) {
+      behavior.retry = random.percent(60) ? Retry::when_started : Retry::after_repair;
+    }
+  }
+  for (std::size_t list = 0; list < catalog.exclusivity.size(); ++list) {
+    catalog.at_most.push_back(random.percent(35) ? static_cast<std::size_t>(random.between(2, 3))
+                                                 : 1);
+  }
+}
+
 Catalog generate_catalog(Random& random) { return CatalogGenerator(random).generate(0); }
 
 Catalog generate_catalog(Random& random, std::size_t tasks) {

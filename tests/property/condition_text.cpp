@@ -45,6 +45,12 @@ class Writer {
         case Kind::faulty:
           lists["faulty"].push_back(behavior(part.behavior));
           break;
+        case Kind::failed:
+          lists["failed"].push_back(behavior(part.behavior));
+          break;
+        case Kind::suspended:
+          lists["suspended"].push_back(task(part.task));
+          break;
         case Kind::available:
           lists["available"].push_back(behavior(part.behavior));
           break;

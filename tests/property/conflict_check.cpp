@@ -43,6 +43,7 @@ struct Rejection {
 enum class Kind {
   priority,
   no_behavior,
+  makes_worse,
   is_protected,
   exclusive,
   on_request,
@@ -64,6 +65,7 @@ const std::vector<Form>& forms() {
   static const std::vector<Form> all = {
       {Kind::priority, "priority", {"task", "priority"}},
       {Kind::no_behavior, "no_behavior", {"task"}},
+      {Kind::makes_worse, "makes_worse", {"task"}},
       {Kind::is_protected, "protected", {"task", "priority"}},
       {Kind::exclusive, "exclusive", {"tasks", "line"}},
       {Kind::on_request, "on_request", {"task"}},
@@ -186,11 +188,14 @@ class Checker {
     }
     demand(event.at("search").at("status") == "infeasible", "rejected, but not infeasible");
     demand(!reasons.empty(), "rejected without a reason");
-    if (reasons.size() == 1 && reasons.front().kind == Kind::no_behavior) {
+    const auto comes_alone = [](const Reason& reason) {
+      return reason.kind == Kind::no_behavior || reason.kind == Kind::makes_worse;
+    };
+    if (reasons.size() == 1 && comes_alone(reasons.front())) {
       return;
     }
     for (const Reason& reason : reasons) {
-      demand(reason.kind != Kind::priority && reason.kind != Kind::no_behavior,
+      demand(reason.kind != Kind::priority && !comes_alone(reason),
              "a reason that comes alone, or before a search");
     }
     check_minimal(rejection, reasons);
@@ -282,6 +287,10 @@ class Checker {
       case Kind::no_behavior:
         demand(is_subject && rejection.starts, "not the task of a start");
         demand(facts_.behaviors_of[reason.task].empty(), "the task has a behavior");
+        return;
+      case Kind::makes_worse:
+        demand(is_subject && rejection.reactive && rejection.priority == 0,
+               "not the task of a start that nobody asked for");
         return;
       case Kind::is_protected:
         demand(!is_subject, "the task of the event");
@@ -509,6 +518,7 @@ class Checker {
     switch (reason.kind) {
       case Kind::priority:
       case Kind::no_behavior:
+      case Kind::makes_worse:
         return true;
       case Kind::is_protected:
         return runs(reason.task);

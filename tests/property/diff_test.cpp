@@ -162,6 +162,9 @@ std::vector<std::string> lines_of(CatalogDiff diff) {
       case CatalogChange::Subject::variable:
         statement = "variable " + change.variable;
         break;
+      case CatalogChange::Subject::limit:
+        statement = "limit of " + change.task;
+        break;
       case CatalogChange::Subject::exclusion:
         statement = change.task + " excludes " + change.other_task;
         break;

@@ -75,6 +75,24 @@ bool exclusivity_holds(const CatalogFacts& facts, const Assignment& values,
   return true;
 }
 
+bool limits_hold(const CatalogFacts& facts, const Assignment& values) {
+  for (std::size_t list = 0; list < facts.catalog.exclusivity.size(); ++list) {
+    if (facts.catalog.most(list) == 1) {
+      continue;
+    }
+    std::set<std::size_t> running;
+    for (const std::size_t task : facts.catalog.exclusivity[list]) {
+      if (values[task] != none) {
+        running.insert(task);
+      }
+    }
+    if (running.size() > facts.catalog.most(list)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 bool required_tasks_run(const CatalogFacts& facts, const Assignment& values,
                         const std::vector<std::size_t>& tasks) {
   for (const std::size_t task : tasks) {
@@ -110,8 +128,8 @@ bool performances_suffice(const CatalogFacts& facts, const Assignment& values,
 
 bool satisfies_constraints(const CatalogFacts& facts, const Assignment& values,
                            const std::vector<std::size_t>& tasks) {
-  return exclusivity_holds(facts, values, tasks) && required_tasks_run(facts, values, tasks) &&
-         performances_suffice(facts, values, tasks);
+  return exclusivity_holds(facts, values, tasks) && limits_hold(facts, values) &&
+         required_tasks_run(facts, values, tasks) && performances_suffice(facts, values, tasks);
 }
 
 // The values of a domain by rank in the canonical order.
@@ -149,6 +167,13 @@ Solution evaluate(const CatalogFacts& facts, const Problem& problem, const Assig
     solution.satisfied.push_back(runs);
     solution.satisfied_count += runs ? 1U : 0U;
   }
+  for (const ActiveRequest& request : problem.suspended) {
+    solution.resumed.push_back(values[request.task] != none);
+  }
+  for (const ActiveRequest& request : problem.unasked) {
+    solution.unasked.push_back(values[request.task] != none);
+  }
+  solution.asked = asked_product(facts, problem, values);
   solution.suitability = 1;
   std::set<std::size_t> active;
   for (const std::size_t task : facts.groups[problem.group]) {
@@ -175,6 +200,12 @@ const char* to_string(Criterion criterion) {
       return "f1, number of requests";
     case Criterion::request_order:
       return "f1, order of requests";
+    case Criterion::suspended:
+      return "f1, suspended requests";
+    case Criterion::asked:
+      return "f1, product of what was asked for";
+    case Criterion::unasked:
+      return "f1, what nobody asked for";
     case Criterion::suitability:
       return "f2, suitability";
     case Criterion::idle:
@@ -202,6 +233,19 @@ Comparison compare(const Solution& a, const Solution& b) {
   for (std::size_t i = 0; i < a.satisfied.size(); ++i) {
     if (a.satisfied[i] != b.satisfied[i]) {
       return {a.satisfied[i], Criterion::request_order};
+    }
+  }
+  for (std::size_t i = 0; i < a.resumed.size(); ++i) {
+    if (a.resumed[i] != b.resumed[i]) {
+      return {a.resumed[i], Criterion::suspended};
+    }
+  }
+  if (a.asked != b.asked) {
+    return {a.asked > b.asked, Criterion::asked};
+  }
+  for (std::size_t i = 0; i < a.unasked.size(); ++i) {
+    if (a.unasked[i] != b.unasked[i]) {
+      return {a.unasked[i], Criterion::unasked};
     }
   }
   if (a.suitability != b.suitability) {
@@ -285,11 +329,16 @@ CatalogFacts::CatalogFacts(Catalog source) : catalog(std::move(source)) {
       join(parent, requirement.task, behavior.performs.front().task);
     }
   }
-  for (const std::vector<std::size_t>& list : catalog.exclusivity) {
+  lists_of.resize(tasks);
+  for (std::size_t place = 0; place < catalog.exclusivity.size(); ++place) {
+    const std::vector<std::size_t>& list = catalog.exclusivity[place];
     for (const std::size_t a : list) {
       join(parent, a, list.front());
+      if (lists_of[a].empty() || lists_of[a].back() != place) {
+        lists_of[a].push_back(place);
+      }
       for (const std::size_t b : list) {
-        if (a != b) {
+        if (a != b && catalog.most(place) == 1) {
           excludes[a].insert(b);
         }
       }
@@ -386,6 +435,23 @@ void sort_requests(std::vector<ActiveRequest>& requests) {
   });
 }
 
+Integer asked_product(const CatalogFacts& facts, const Problem& problem, const Assignment& values) {
+  std::vector<bool> counts(values.size(), false);
+  for (const std::vector<ActiveRequest>* requests : {&problem.requests, &problem.suspended}) {
+    for (const ActiveRequest& request : *requests) {
+      if (values[request.task] != none) {
+        counts[request.task] = true;
+        collect_required(facts, values, request.task, counts);
+      }
+    }
+  }
+  Integer product = 1;
+  for (const std::size_t task : facts.groups[problem.group]) {
+    product *= counts[task] ? facts.suitability(values[task], task) : whole_degree;
+  }
+  return product;
+}
+
 Integer search_space(const Problem& problem) {
   Integer space = 1;
   for (const std::vector<std::size_t>& domain : problem.domains) {
@@ -436,6 +502,10 @@ bool is_better(const Solution& a, const Solution& b) { return compare(a, b).firs
 
 std::vector<Solution> solve_all(const CatalogFacts& facts, const Problem& problem) {
   std::vector<Solution> solutions = enumerate(facts, problem);
+  // Of the best answer f2 says the same then, and lists of alternatives are told apart without it.
+  for (Solution& solution : solutions) {
+    if (problem.unasked.empty()) solution.asked = 0;
+  }
   std::sort(solutions.begin(), solutions.end(), is_better);
   return solutions;
 }

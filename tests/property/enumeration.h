@@ -31,10 +31,11 @@ struct CatalogFacts {
 
   Catalog catalog;
   std::vector<std::vector<std::size_t>> behaviors_of;  // of each task, in catalog order
-  std::vector<std::set<std::size_t>> excludes;         // tasks that share a list with each task
-  std::vector<std::vector<std::size_t>> groups;        // tasks, in catalog order
-  std::vector<std::size_t> group_of;                   // of each task
-  std::vector<std::size_t> level_of;                   // of each behavior
+  std::vector<std::set<std::size_t>> excludes;     // tasks that share a list of one with each task
+  std::vector<std::vector<std::size_t>> lists_of;  // of each task: the lists that have it
+  std::vector<std::vector<std::size_t>> groups;    // tasks, in catalog order
+  std::vector<std::size_t> group_of;               // of each task
+  std::vector<std::size_t> level_of;               // of each behavior
 };
 
 // Performance(task) is `product` / 10^(6 * `factors`).
@@ -62,7 +63,10 @@ struct Problem {
   // Of the tasks of the group; may include none. Ranks of equally suitable behaviors follow its
   // order.
   std::vector<std::vector<std::size_t>> domains;
-  std::vector<ActiveRequest> requests;  // of the group; see sort_requests
+  // Of the group, each sorted; see sort_requests.
+  std::vector<ActiveRequest> requests;  // of priority 1 or more
+  std::vector<ActiveRequest> suspended;
+  std::vector<ActiveRequest> unasked;  // of priority 0
   Assignment before;             // values before the event, a finished behavior still included
   std::set<std::size_t> active;  // behaviors active just before the event, a finished one not
 };
@@ -71,14 +75,32 @@ struct Solution {
   Assignment values;                // of all tasks
   std::vector<bool> satisfied;      // of the requests of the problem, in their order
   std::size_t satisfied_count = 0;  // f1
+  std::vector<bool> resumed;        // of the suspended requests
+  Integer asked;                    // what was asked for, times 10^(6 * tasks of the group)
+  std::vector<bool> unasked;        // of the requests of priority 0: whether the task runs
   Integer suitability;              // f2, times 10^(6 * tasks of the group)
   std::size_t running_unasked = 0;  // f3: running tasks that are not start_on_request
   std::size_t changes = 0;          // f4
   std::vector<std::size_t> ranks;   // canonical order: of the value of each task of the group
 };
 
+// The product of the suitabilities of the tasks with a request of priority 1 or more that run, and
+// of what they require, each once; times 10^(6 * tasks of the group).
+Integer asked_product(const CatalogFacts& facts, const Problem& problem, const Assignment& values);
+
 // What tells two solutions apart, in order.
-enum class Criterion { satisfied, request_order, suitability, idle, changes, ranks, nothing };
+enum class Criterion {
+  satisfied,
+  request_order,
+  suspended,
+  asked,
+  unasked,
+  suitability,
+  idle,
+  changes,
+  ranks,
+  nothing
+};
 
 // The first criterion in which the two differ.
 Criterion first_difference(const Solution& a, const Solution& b);

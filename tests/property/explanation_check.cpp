@@ -285,7 +285,7 @@ class Check {
   // Requests that are not satisfied are displaced, and explained as any task that does not run.
   void check_displaced() {
     std::size_t next = 0;
-    for (const ActiveRequest& request : answer_.problem.requests) {
+    for (const ActiveRequest& request : running_requests()) {
       if (answer_.solution.values[request.task] != none) {
         continue;
       }
@@ -337,9 +337,16 @@ class Check {
   }
 
   // Whether a task of the group runs that nobody requested, and nothing that runs requires.
+  // Those of tasks that run, or are started; of any priority.
+  std::vector<ActiveRequest> running_requests() const {
+    std::vector<ActiveRequest> requests = answer_.problem.requests;
+    requests.insert(requests.end(), answer_.problem.unasked.begin(), answer_.problem.unasked.end());
+    return requests;
+  }
+
   bool has_needless_task(const Assignment& values) const {
     return std::any_of(tasks_.begin(), tasks_.end(), [&](std::size_t task) {
-      const auto& requests = answer_.problem.requests;
+      const std::vector<ActiveRequest> requests = running_requests();
       const bool is_requested =
           std::any_of(requests.begin(), requests.end(),
                       [&](const ActiveRequest& request) { return request.task == task; });
@@ -496,7 +503,9 @@ class Check {
   }
 
   ordered_json loss(const Solution& other) const {
-    const Solution& chosen = answer_.solution;
+    Solution chosen = answer_.solution;
+    // Where nothing runs that nobody asked for, f2 says the same.
+    if (answer_.problem.unasked.empty()) chosen.asked = other.asked;
     const auto of = [](const char* objective, const ordered_json& ours,
                        const ordered_json& theirs) {
       return ordered_json{{"objective", objective}, {"chosen", ours}, {"alternative", theirs}};
@@ -504,15 +513,15 @@ class Check {
     switch (first_difference(chosen, other)) {
       case Criterion::satisfied:
         return of("requests", satisfied_of_all(chosen), satisfied_of_all(other));
-      case Criterion::request_order: {
-        std::vector<std::size_t> only(2, none);
-        for (std::size_t i = chosen.satisfied.size(); i > 0; --i) {
-          if (chosen.satisfied[i - 1] != other.satisfied[i - 1]) {
-            only[chosen.satisfied[i - 1] ? 0 : 1] = answer_.problem.requests[i - 1].task;
-          }
-        }
-        return of("request_order", name_of_task(only[0]), name_of_task(only[1]));
-      }
+      case Criterion::request_order:
+        return order(answer_.problem.requests, chosen.satisfied, other.satisfied);
+      case Criterion::suspended:
+        return order(answer_.problem.suspended, chosen.resumed, other.resumed);
+      case Criterion::unasked:
+        return order(answer_.problem.unasked, chosen.unasked, other.unasked);
+      case Criterion::asked:
+        return of("asked", decimal(chosen.asked, tasks_.size()),
+                  decimal(other.asked, tasks_.size()));
       case Criterion::suitability:
         return of("suitability", exact(chosen.values), exact(other.values));
       case Criterion::idle:
@@ -540,6 +549,18 @@ class Check {
     return std::to_string(idle) + "/" + std::to_string(all);
   }
 
+  // The first of the requests that only one of the two serves, for each of them.
+  ordered_json order(const std::vector<ActiveRequest>& requests, const std::vector<bool>& ours,
+                     const std::vector<bool>& theirs) const {
+    std::vector<ordered_json> only(2);
+    for (std::size_t i = requests.size(); i > 0; --i) {
+      if (ours[i - 1] != theirs[i - 1]) {
+        only[ours[i - 1] ? 0 : 1] = name_of_task(requests[i - 1].task);
+      }
+    }
+    return {{"objective", "request_order"}, {"chosen", only[0]}, {"alternative", only[1]}};
+  }
+
   // As a decimal number; of the group alone, where it is 0 outside.
   std::string exact(Assignment values) const {
     Assignment outside = values;
@@ -553,8 +574,11 @@ class Check {
         }
       }
     }
-    const Integer product = suitability_of_all(values);
-    const Integer whole = power_of_million(values.size());
+    return decimal(suitability_of_all(values), values.size());
+  }
+
+  static std::string decimal(const Integer& product, std::size_t factors) {
+    const Integer whole = power_of_million(factors);
     if (product == 0 || product == whole) {
       return product == 0 ? "0" : "1";
     }

@@ -135,6 +135,9 @@ class ScriptGenerator {
   void add_contested_event() {
     std::vector<Event> candidates;
     for (std::size_t task = 0; task < task_count(); ++task) {
+      if (!facts_->catalog.tasks[task].requestable) {
+        continue;
+      }
       Event event;
       event.verb = Verb::start;
       event.subject = task;
@@ -207,7 +210,22 @@ class ScriptGenerator {
     if (random_.percent(30)) {
       event.parameters = pick_parameters();
     }
-    return event;
+    return requestable(event);
+  }
+
+  // Another task in place of one that nobody may request; a stop where there is none.
+  Event requestable(Event event) const {
+    const std::vector<Task>& tasks = facts_->catalog.tasks;
+    for (std::size_t tried = 0; tried < tasks.size(); ++tried) {
+      if (tasks[event.subject].requestable) {
+        return event;
+      }
+      event.subject = (event.subject + 1) % tasks.size();
+    }
+    Event stop;
+    stop.verb = Verb::stop;
+    stop.subject = event.subject;
+    return stop;
   }
 
   Parameters pick_parameters() {
@@ -232,7 +250,12 @@ class ScriptGenerator {
 
   Event restart_event(std::size_t task) {
     Event event = start_event(task);
+    if (event.verb != Verb::start) {
+      return event;
+    }
     event.subject = task;
+    event = requestable(event);
+    task = event.subject;
     event.parameters = pick_parameters();
     const std::optional<Request>& request = oracle_.state().requests[task];
     if (request) {
@@ -256,6 +279,16 @@ class ScriptGenerator {
     const std::vector<std::size_t> waiting(oracle_.waiting().begin(), oracle_.waiting().end());
     if (!waiting.empty() && random_.percent(15)) {
       event.subject = random_.pick(waiting);
+      return event;
+    }
+    std::vector<std::size_t> suspended;
+    for (std::size_t task = 0; task < task_count(); ++task) {
+      if (oracle_.state().suspended[task]) {
+        suspended.push_back(task);
+      }
+    }
+    if (!suspended.empty() && random_.percent(30)) {
+      event.subject = random_.pick(suspended);
       return event;
     }
     event.subject = running.empty() || random_.percent(12) ? random_.below(task_count())
@@ -411,7 +444,7 @@ class ScriptGenerator {
 
   void add_repair() {
     const std::vector<std::size_t> faulty =
-        behaviors_where([&](std::size_t b) { return oracle_.faulty(b); });
+        behaviors_where([&](std::size_t b) { return oracle_.faulty(b) || oracle_.failed(b); });
     const std::size_t behaviors = facts_->catalog.behaviors.size();
     if (behaviors == 0 || (faulty.empty() && random_.percent(90))) {
       return;
@@ -490,6 +523,15 @@ Script generate_script(Random& random, const Catalog& catalog) {
 Case generate_case(Random& random) {
   Case result;
   result.catalog = generate_catalog(random);
+  result.script = generate_script(random, result.catalog);
+  return result;
+}
+
+Case generate_case_with_keys(std::uint64_t seed) {
+  Random random(seed);
+  Case result;
+  result.catalog = generate_catalog(random);
+  add_further_keys(random, result.catalog);
   result.script = generate_script(random, result.catalog);
   return result;
 }

@@ -26,6 +26,9 @@ Microseconds pick_time_unit(Random& random);
 Catalog generate_catalog(Random& random);
 // With at least one task, and as many as given.
 Catalog generate_catalog(Random& random, std::size_t tasks);
+// Keys of the third edition of the definition, for a catalog without any.
+void add_further_keys(Random& random, Catalog& catalog);
+Case generate_case_with_keys(std::uint64_t seed);
 Script generate_script(Random& random, const Catalog& catalog);
 
 }  // namespace cbc::oracle

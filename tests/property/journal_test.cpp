@@ -120,7 +120,8 @@ class Hindsight final : private EventListener {
   [[nodiscard]] bool is_blocked_start(TaskId task) const {
     const cbc::State& state = coordinator_.state();
     return catalog_.tasks[task].reactive_start != 0 && !state.is_running(task) &&
-           state.has_available_behavior(task) && state.excludes_running_task(task);
+           state.has_available_behavior(task) &&
+           state.is_blocked(task, catalog_.rules_of(task).reactive_priority);
   }
 
   void check_blocked(const std::vector<BlockedStart>& blocked) const {

@@ -22,6 +22,9 @@ inline constexpr Millionths whole_degree = 1'000'000;
 // running".
 inline constexpr std::size_t none = static_cast<std::size_t>(-1);
 
+enum class Improve { at_events, at_once, when_started };
+enum class Retry { at_events, when_started, after_repair };
+
 struct Task {
   std::string name;
   bool listed = true;  // in the `tasks:` section; if not, only behaviors name it
@@ -30,6 +33,10 @@ struct Task {
   bool keep_running = false;
   std::optional<Microseconds> timeout;
   Millionths minimum = 0;
+  bool requestable = true;
+  int reactive_priority = 0;
+  Improve improve = Improve::at_events;
+  bool resume = false;
 
   bool operator==(const Task&) const = default;
 };
@@ -73,6 +80,7 @@ struct Behavior {
   std::vector<Requirement> requirements;
   std::optional<Microseconds> timeout;
   std::vector<Condition> situation = {};  // at most one condition for each variable
+  Retry retry = Retry::at_events;
 
   bool operator==(const Behavior&) const = default;
 };
@@ -93,10 +101,31 @@ struct Catalog {
   std::vector<Task> tasks;
   std::vector<Behavior> behaviors;
   std::vector<std::vector<std::size_t>> exclusivity;
+  // How many tasks of each list may run; lists that are not named here: 1.
+  std::vector<std::size_t> at_most = {};
   std::vector<Variable> variables = {};
+
+  std::size_t most(std::size_t list) const { return list < at_most.size() ? at_most[list] : 1; }
+  // Whether it says something that only the third edition of the definition knows.
+  bool has_further_keys() const {
+    for (const Task& task : tasks) {
+      if (!task.requestable || task.reactive_priority != 0 || task.resume ||
+          task.improve != Improve::at_events) {
+        return true;
+      }
+    }
+    for (const Behavior& behavior : behaviors) {
+      if (behavior.retry != Retry::at_events) return true;
+    }
+    for (std::size_t list = 0; list < exclusivity.size(); ++list) {
+      const std::set<std::size_t> members(exclusivity[list].begin(), exclusivity[list].end());
+      if (most(list) > 1 && members.size() > 1) return true;
+    }
+    return false;
+  }
 };
 
-enum class Verb { start, stop, finish, situation, fault, repair, wait };
+enum class Verb { start, stop, finish, situation, fault, repair, wait, reconsider };
 
 enum class Cause {
   goal_achieved,
@@ -152,6 +181,8 @@ inline const char* to_string(Verb verb) {
       return "repair";
     case Verb::wait:
       return "wait";
+    case Verb::reconsider:
+      return "reconsider";
   }
   return "";
 }

@@ -66,6 +66,7 @@ Oracle::Oracle(std::shared_ptr<const CatalogFacts> facts, const Script& script,
   const std::size_t behaviors = facts_->catalog.behaviors.size();
   state_.values.assign(tasks, none);
   state_.requests.resize(tasks);
+  state_.suspended.resize(tasks);
   queue_.resize(tasks);
   taken_at_.resize(tasks, 0);
   variables_.resize(facts_->catalog.variables.size(), 0);
@@ -107,6 +108,8 @@ void Oracle::handle(const Event& event) {
       return run_repair(event);
     case Verb::wait:
       return complete_unsolved(new_record("script", Verb::wait), "unchanged");
+    case Verb::reconsider:  // no event of a script
+      return;
   }
 }
 
@@ -139,10 +142,11 @@ std::optional<Oracle::Due> Oracle::next_due() const {
   };
   for (std::size_t task = 0; task < state_.values.size(); ++task) {
     if (const std::optional<Microseconds> time = deadline(task)) {
-      consider({*time, DueKind::timeout, task});
+      consider({*time, DueKind::timeout, 0, task});
     }
     if (queue_[task]) {
-      consider({*queue_[task], DueKind::reactive_start, task});
+      consider({*queue_[task], DueKind::reactive_start,
+                -facts_->catalog.tasks[task].reactive_priority, task});
     }
   }
   return first;
@@ -187,7 +191,8 @@ void Oracle::run_start(const Event& event) {
   if (event.parameters) {
     record["parameters"] = *event.parameters;
   }
-  const std::optional<Request>& request = state_.requests[task];
+  const std::optional<Request>& request =
+      state_.suspended[task] ? state_.suspended[task] : state_.requests[task];
   if (request && request->priority > priority) {
     count("rejected by the priority of its own request: start");
     return complete_unsolved(std::move(record), "rejected");
@@ -197,26 +202,33 @@ void Oracle::run_start(const Event& event) {
   trigger.subject = task;
   trigger.priority = priority;
   trigger.parameters = event.parameters;
+  forgiven_ = forgive(task);
   coordinate(std::move(record), trigger);
 }
 
 void Oracle::run_stop(const Event& event) {
   const std::size_t task = event.subject;
-  const std::optional<Request>& request = state_.requests[task];
+  const std::optional<Request>& request =
+      state_.suspended[task] ? state_.suspended[task] : state_.requests[task];
   const int priority = event.priority.value_or(request ? request->priority : 0);
   ordered_json record = new_record("script", Verb::stop);
   record["name"] = task_name(task);
   record["priority"] = priority;
+  if (request && request->priority > priority) {
+    count("rejected by the priority of its own request: stop");
+    return complete_unsolved(std::move(record), "rejected");
+  }
   if (state_.values[task] == none) {
     queue_[task].reset();
     if (waiting_.erase(task) != 0) {
       count("waiting: until a stop");
     }
+    if (state_.suspended[task]) {
+      count("suspended: until a stop");
+      state_.suspended[task].reset();
+      return complete_unsolved(std::move(record), "accepted");
+    }
     return complete_unsolved(std::move(record), "unchanged");
-  }
-  if (request && request->priority > priority) {
-    count("rejected by the priority of its own request: stop");
-    return complete_unsolved(std::move(record), "rejected");
   }
   Trigger trigger;
   trigger.verb = Verb::stop;
@@ -245,6 +257,9 @@ void Oracle::run_finish(const char* origin, std::size_t behavior, Cause cause, s
   trigger.verb = Verb::finish;
   trigger.subject = behavior;
   trigger.cause = cause;
+  if (cause != Cause::goal_achieved && cause != Cause::situation_change) {
+    remember_failure(behavior);
+  }
   coordinate(std::move(record), trigger);
 }
 
@@ -271,8 +286,10 @@ void Oracle::run_situation(const Event& event) {
     was_available.push_back(available(behavior));
   }
   set_situation(event.situation);
+  std::set<std::size_t> groups;
   for (std::size_t behavior = 0; behavior < own_.size(); ++behavior) {
     if (available(behavior) && !was_available[behavior]) {
+      groups.insert(facts_->group_of_behavior(behavior));
       count_if(!fitted[behavior], "situation: available because it fits");
       join_queue_by_group(facts_->group_of_behavior(behavior));
     }
@@ -283,6 +300,7 @@ void Oracle::run_situation(const Event& event) {
   }
   complete_unsolved(std::move(record), "unchanged");
   finish_what_does_not_fit();
+  reconsider("situation", groups);
 }
 
 void Oracle::set_situation(const Situation& situation) {
@@ -321,11 +339,115 @@ void Oracle::run_fault(const Event& event) {
 void Oracle::run_repair(const Event& event) {
   ordered_json record = new_record("script", Verb::repair);
   record["name"] = behavior_name(event.subject);
-  if (faulty_[event.subject]) {
+  std::set<std::size_t> groups;
+  if (faulty_[event.subject] || failed_.contains(event.subject)) {
+    count_if(!faulty_[event.subject], "repair: of what has failed, and is not faulty");
+    groups.insert(facts_->group_of_behavior(event.subject));
     join_queue_by_group(facts_->group_of_behavior(event.subject));
   }
   faulty_[event.subject] = false;
+  failed_.erase(event.subject);
   complete_unsolved(std::move(record), "unchanged");
+  reconsider("repair", groups);
+}
+
+// Deciding anew
+
+void Oracle::reconsider(const char* origin, const std::set<std::size_t>& groups) {
+  for (const std::size_t group : groups) {
+    const std::vector<std::size_t>& tasks = facts_->groups[group];
+    const bool has_reason = std::any_of(tasks.begin(), tasks.end(), [&](std::size_t task) {
+      return state_.suspended[task] || (state_.values[task] != none &&
+                                        facts_->catalog.tasks[task].improve == Improve::at_once);
+    });
+    if (!has_reason) {
+      continue;
+    }
+    Trigger trigger;
+    trigger.verb = Verb::reconsider;
+    trigger.subject = group;
+    coordinate(new_record(origin, Verb::reconsider), trigger);
+  }
+}
+
+// Whether a suspended request is resumed, or a running task that may improve at once gets a better
+// behavior.
+bool Oracle::improves(const Assignment& values) const {
+  for (std::size_t task = 0; task < values.size(); ++task) {
+    if (values[task] == none) {
+      continue;
+    }
+    if (state_.suspended[task]) {
+      return true;
+    }
+    if (state_.values[task] != none && facts_->catalog.tasks[task].improve == Improve::at_once &&
+        facts_->suitability(values[task], task) > facts_->suitability(state_.values[task], task)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// The tasks that the task may need, itself included, whatever is chosen.
+std::set<std::size_t> Oracle::may_need(std::size_t task) const {
+  std::set<std::size_t> needed{task};
+  std::vector<std::size_t> open{task};
+  while (!open.empty()) {
+    const std::size_t next = open.back();
+    open.pop_back();
+    for (const std::size_t behavior : facts_->behaviors_of[next]) {
+      for (const Requirement& requirement : facts_->catalog.behaviors[behavior].requirements) {
+        if (needed.insert(requirement.task).second) {
+          open.push_back(requirement.task);
+        }
+      }
+    }
+  }
+  return needed;
+}
+
+// Failures that are remembered
+
+void Oracle::remember_failure(std::size_t behavior) {
+  if (facts_->catalog.behaviors[behavior].retry != Retry::at_events) {
+    failed_.insert(behavior);
+  }
+}
+
+bool Oracle::excludes_each_other(std::size_t a, std::size_t b) const {
+  return facts_->excludes[a].contains(b);
+}
+
+// The behaviors that leave X for a scripted start.
+std::set<std::size_t> Oracle::forgive(std::size_t task) {
+  const std::set<std::size_t> needed = may_need(task);
+  std::set<std::size_t> needed_by_others;
+  for (std::size_t other = 0; other < state_.values.size(); ++other) {
+    if (state_.values[other] != none && !excludes_each_other(task, other)) {
+      needed_by_others.merge(may_need(other));
+    }
+  }
+  std::set<std::size_t> forgiven;
+  for (const std::size_t behavior : failed_) {
+    if (facts_->catalog.behaviors[behavior].retry != Retry::when_started) {
+      continue;
+    }
+    bool is_needed = false;
+    bool is_used = false;
+    for (const Performance& performed : facts_->catalog.behaviors[behavior].performs) {
+      is_needed = is_needed || needed.contains(performed.task);
+      is_used = is_used || state_.values[performed.task] != none ||
+                needed_by_others.contains(performed.task);
+    }
+    if (is_needed && !is_used) {
+      forgiven.insert(behavior);
+    }
+  }
+  for (const std::size_t behavior : forgiven) {
+    failed_.erase(behavior);
+  }
+  count_if(!forgiven.empty(), "failed: tried again by a start");
+  return forgiven;
 }
 
 void Oracle::run_reactive_start(std::size_t task) {
@@ -334,7 +456,7 @@ void Oracle::run_reactive_start(std::size_t task) {
     return;
   }
   const std::vector<std::size_t>& behaviors = facts_->behaviors_of[task];
-  const bool blocked = is_excluded_by_running(task);
+  const bool blocked = is_blocked(task);
   const bool possible = std::any_of(behaviors.begin(), behaviors.end(),
                                     [&](std::size_t behavior) { return available(behavior); });
   if (blocked || !possible) {
@@ -346,25 +468,47 @@ void Oracle::run_reactive_start(std::size_t task) {
   }
   ordered_json record = new_record("reactive", Verb::start);
   record["name"] = task_name(task);
-  record["priority"] = 0;
+  record["priority"] = facts_->catalog.tasks[task].reactive_priority;
   Trigger trigger;
   trigger.verb = Verb::start;
   trigger.subject = task;
   trigger.reactive = true;
+  trigger.priority = facts_->catalog.tasks[task].reactive_priority;
   coordinate(std::move(record), trigger);
 }
 
-bool Oracle::is_excluded_by_running(std::size_t task) const {
-  const std::set<std::size_t>& excluded = facts_->excludes[task];
-  return std::any_of(excluded.begin(), excluded.end(),
-                     [&](std::size_t other) { return state_.values[other] != none; });
+// Whether some list has as many other tasks running as may run.
+bool Oracle::is_blocked(std::size_t task) const {
+  const std::vector<std::size_t>& lists = facts_->lists_of[task];
+  return std::any_of(lists.begin(), lists.end(),
+                     [&](std::size_t list) { return is_blocked_by(task, list); });
+}
+
+bool Oracle::is_blocked_by(std::size_t task, std::size_t list) const {
+  std::set<std::size_t> running;
+  for (const std::size_t other : facts_->catalog.exclusivity[list]) {
+    if (other != task && counts_against(task, other)) {
+      running.insert(other);
+    }
+  }
+  return running.size() >= facts_->catalog.most(list);
+}
+
+// Whether a running task counts where a reactive task might start.
+bool Oracle::counts_against(std::size_t task, std::size_t other) const {
+  const int least = facts_->catalog.tasks[task].reactive_priority;
+  if (state_.values[other] == none) {
+    return false;
+  }
+  return least == 0 || (state_.requests[other] && state_.requests[other]->priority >= least);
 }
 
 // Reports
 
 ordered_json Oracle::objective(const Transition& transition, const Solution& solution) const {
   const std::vector<Task>& tasks = facts_->catalog.tasks;
-  const std::vector<ActiveRequest> requests = active_requests(transition);
+  std::vector<ActiveRequest> requests = active_requests(transition);
+  std::erase_if(requests, [](const ActiveRequest& request) { return request.priority == 0; });
   std::size_t satisfied = 0;
   for (const ActiveRequest& request : requests) {
     satisfied += solution.values[request.task] != none ? 1U : 0U;
@@ -436,6 +580,22 @@ void Oracle::complete(ordered_json record, const std::string& outcome) {
   }
   record["running"] = std::move(running);
   record["requests"] = std::move(requests);
+  if (facts_->catalog.has_further_keys()) {
+    ordered_json suspended = ordered_json::object();
+    for (std::size_t task = 0; task < state_.values.size(); ++task) {
+      if (state_.suspended[task]) {
+        suspended[task_name(task)] = state_.suspended[task]->priority;
+      }
+    }
+    count_if(!suspended.empty(), "state: with suspended requests");
+    record["suspended"] = std::move(suspended);
+    ordered_json failed = ordered_json::array();
+    for (const std::size_t behavior : failed_) {
+      failed.push_back(behavior_name(behavior));
+    }
+    count_if(!failed.empty(), "state: with failures that are remembered");
+    record["failed"] = std::move(failed);
+  }
   record["queue"] = std::move(queue);
   count("origin: " + record["origin"].get<std::string>());
   events_.push_back(std::move(record));

@@ -27,13 +27,14 @@ struct Request {
 
 struct State {
   Assignment values;
-  std::vector<std::optional<Request>> requests;  // of each task
+  std::vector<std::optional<Request>> requests;   // of each running task
+  std::vector<std::optional<Request>> suspended;  // of each task that does not run
 };
 
-// A start, stop or finish, of whatever origin.
+// A start, stop or finish, of whatever origin; or that a group is decided anew.
 struct Trigger {
   Verb verb = Verb::start;
-  std::size_t subject = none;  // a task, or the behavior that finishes
+  std::size_t subject = none;  // a task, the behavior that finishes, or a group
   int priority = 0;            // start, stop
   bool reactive = false;       // a start from the queue
   std::optional<Parameters> parameters;
@@ -95,9 +96,12 @@ class Oracle {
   const State& state() const { return state_; }
   bool own(std::size_t behavior) const { return own_[behavior]; }
   bool fits(std::size_t behavior) const { return facts_->fits(behavior, variables_); }
-  bool available(std::size_t behavior) const { return own(behavior) && fits(behavior); }
+  bool available(std::size_t behavior) const {
+    return own(behavior) && fits(behavior) && !failed_.contains(behavior);
+  }
   const std::vector<std::size_t>& variables() const { return variables_; }  // their values
   bool faulty(std::size_t behavior) const { return faulty_[behavior]; }
+  bool failed(std::size_t behavior) const { return failed_.contains(behavior); }
   const std::set<std::size_t>& waiting() const { return waiting_; }  // W
   Microseconds now() const { return now_; }
   std::optional<Microseconds> next_due_time() const;
@@ -107,6 +111,7 @@ class Oracle {
   struct Due {
     Microseconds time = 0;
     DueKind kind = DueKind::timeout;
+    int below_highest = 0;  // of a reactive start: less for a higher priority
     std::size_t task = 0;
 
     auto operator<=>(const Due&) const = default;
@@ -142,11 +147,21 @@ class Oracle {
   void run_fault(const Event& event);
   void run_repair(const Event& event);
   void run_reactive_start(std::size_t task);
-  bool is_excluded_by_running(std::size_t task) const;
+  bool is_blocked(std::size_t task) const;
+  bool is_blocked_by(std::size_t task, std::size_t list) const;
+  bool counts_against(std::size_t task, std::size_t other) const;
+
+  void reconsider(const char* origin, const std::set<std::size_t>& groups);
+  bool improves(const Assignment& values) const;
+  std::set<std::size_t> may_need(std::size_t task) const;
+  void remember_failure(std::size_t behavior);
+  std::set<std::size_t> forgive(std::size_t task);
+  bool excludes_each_other(std::size_t a, std::size_t b) const;
 
   // Solves and applies; adds the results to the record, completes it, and lets the behaviors that
   // were lost finish.
   void coordinate(nlohmann::ordered_json record, const Trigger& trigger);
+  bool makes_worse(const Transition& transition, const Assignment& values) const;
   std::set<std::size_t> find_differing(const Transition& transition,
                                        const std::optional<Solution>& solution) const;
   Transition begin(const Trigger& trigger) const;
@@ -155,7 +170,11 @@ class Oracle {
   std::vector<std::size_t> domain(const Transition& transition, std::size_t task) const;
   std::vector<std::size_t> selectable(const Transition& transition, std::size_t task) const;
   bool is_protected(const Transition& transition, std::size_t task) const;
+  bool may_not_improve(const Transition& transition, std::size_t task) const;
   std::vector<ActiveRequest> active_requests(const Transition& transition) const;
+  std::vector<ActiveRequest> suspended_requests(const Transition& transition) const;
+  const char* activation_cause(const Transition& transition,
+                               const std::vector<std::size_t>& tasks) const;
 
   // The behavior whose activation failed, if one did.
   std::optional<std::size_t> apply(Transition& transition, const Assignment& values);
@@ -202,6 +221,8 @@ class Oracle {
   std::vector<bool> faulty_;
   std::vector<std::optional<Microseconds>> queue_;  // due time of each task in Q
   std::set<std::size_t> waiting_;                   // W
+  std::set<std::size_t> failed_;                    // X
+  std::set<std::size_t> forgiven_;                  // out of X for the present event
   std::vector<Microseconds> activated_at_;          // of each behavior: its last activation
   std::vector<Microseconds> taken_at_;              // of each task: when it took its behavior
   Microseconds now_ = 0;

@@ -40,13 +40,26 @@ bool is_failure(Cause cause) {
 
 void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
   Transition transition = begin(trigger);
+  const bool is_unasked = trigger.reactive && trigger.priority == 0;
+  const bool anew = trigger.verb == Verb::reconsider;
   std::optional<Solution> solution = solve_at_some_level(transition);
   while (solution) {
+    if (is_unasked && makes_worse(transition, solution->values)) {
+      count("reactive start: would make worse what was asked for");
+      solution.reset();
+      break;
+    }
+    if (anew && transition.changes.empty() && !improves(solution->values)) {
+      count("reconsidered: nothing better");
+      --event_number_;
+      return;
+    }
     const std::optional<std::size_t> failed = apply(transition, solution->values);
     if (!failed) {
       break;
     }
     transition.excluded.insert(*failed);
+    remember_failure(*failed);
     solution = solve_at_some_level(transition);
   }
   std::set<std::size_t> differing = find_differing(transition, solution);
@@ -55,8 +68,10 @@ void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
     const int depth = transition.level - transition.first_level;
     count("escalation: " + (depth < 3 ? std::to_string(depth) : std::string("3 or more")));
   }
+  count_if(anew, "reconsidered: " + outcome);
   if (trigger.reactive) {
     count("reactive start: " + outcome);
+    count_if(trigger.priority > 0, "reactive start with a priority: " + outcome);
     count_if(solution && waiting_.contains(trigger.subject), "waiting: until it starts");
   }
 
@@ -91,18 +106,34 @@ void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
     }
   } else {
     roll_back(transition);
+    for (const std::size_t behavior : transition.lost) {
+      remember_failure(behavior);
+    }
     if (!transition.changes.empty()) {
       count("rejected and taken back");
     }
-    if (trigger.reactive && !waiting_.insert(trigger.subject).second) {
-      if (transition.changes.empty()) {
+    if (trigger.reactive) {
+      const bool waited = waiting_.contains(trigger.subject);
+      const bool tried = !transition.changes.empty();
+      if (is_unasked || !tried) {
+        waiting_.insert(trigger.subject);
+      } else {
+        waiting_.erase(trigger.subject);
+      }
+      if (waited && !tried) {
         count("waiting: silent attempt");
         --event_number_;
         return;
       }
-      count("waiting: an attempt with a failed activation");
+      count_if(waited, "waiting: an attempt with a failed activation");
     }
   }
+  for (const std::size_t behavior : forgiven_) {
+    if (!is_active(behavior)) {
+      failed_.insert(behavior);
+    }
+  }
+  forgiven_.clear();
 
   if (!differing.empty()) differing_[record["index"]] = std::move(differing);
   record["outcome"] = outcome;
@@ -167,6 +198,8 @@ Oracle::Transition Oracle::begin(const Trigger& trigger) const {
     if (is_failure(trigger.cause)) {
       transition.excluded.insert(trigger.subject);
     }
+  } else if (trigger.verb == Verb::reconsider) {
+    transition.group = trigger.subject;
   } else {
     transition.group = facts_->group_of[trigger.subject];
     transition.first_level = trigger.priority;
@@ -198,10 +231,17 @@ Problem Oracle::problem(const Transition& transition) const {
   }
   for (const ActiveRequest& request : active_requests(transition)) {
     if (facts_->group_of[request.task] == transition.group) {
-      result.requests.push_back(request);
+      (request.priority == 0 ? result.unasked : result.requests).push_back(request);
+    }
+  }
+  for (const ActiveRequest& request : suspended_requests(transition)) {
+    if (facts_->group_of[request.task] == transition.group) {
+      result.suspended.push_back(request);
     }
   }
   sort_requests(result.requests);
+  sort_requests(result.suspended);
+  sort_requests(result.unasked);
   for (const std::size_t behavior : transition.active_before) {
     if (facts_->group_of_behavior(behavior) == transition.group) {
       result.active.insert(behavior);
@@ -226,7 +266,9 @@ std::vector<std::size_t> Oracle::domain(const Transition& transition, std::size_
     values.push_back(none);
     return values;
   }
-  if (facts_->catalog.tasks[task].start_on_request && state_.values[task] == none) {
+  const bool is_unasked = trigger.reactive && trigger.priority == 0;
+  const bool waits = state_.suspended[task] && !is_unasked;
+  if (facts_->catalog.tasks[task].start_on_request && state_.values[task] == none && !waits) {
     return {none};
   }
   if (!is_protected(transition, task)) {
@@ -241,6 +283,12 @@ std::vector<std::size_t> Oracle::selectable(const Transition& transition, std::s
   std::vector<std::size_t> result;
   for (const std::size_t behavior : facts_->behaviors_of[task]) {
     const bool keeps_it = behavior == state_.values[task] && !finished;
+    const bool is_better =
+        state_.values[task] != none &&
+        facts_->suitability(behavior, task) > facts_->suitability(state_.values[task], task);
+    if (is_better && may_not_improve(transition, task)) {
+      continue;
+    }
     if ((available(behavior) || (keeps_it && fits(behavior))) &&
         !transition.excluded.contains(behavior)) {
       result.push_back(behavior);
@@ -249,9 +297,63 @@ std::vector<std::size_t> Oracle::selectable(const Transition& transition, std::s
   return result;
 }
 
+// Of a running task.
+bool Oracle::may_not_improve(const Transition& transition, std::size_t task) const {
+  const Trigger& trigger = transition.trigger;
+  const std::vector<Task>& tasks = facts_->catalog.tasks;
+  const bool is_started =
+      trigger.verb == Verb::start && !trigger.reactive && task == trigger.subject;
+  if (tasks[task].improve == Improve::when_started && !is_started) {
+    return true;
+  }
+  if (trigger.verb != Verb::reconsider || tasks[task].improve == Improve::at_once) {
+    return false;
+  }
+  for (const std::size_t other : facts_->groups[transition.group]) {
+    const bool matters = state_.suspended[other] ||
+                         (state_.values[other] != none && tasks[other].improve == Improve::at_once);
+    if (matters && may_need(other).contains(task)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 bool Oracle::is_protected(const Transition& transition, std::size_t task) const {
   const std::optional<Request>& request = state_.requests[task];
-  return request && (transition.trigger.reactive || request->priority > transition.level);
+  if (!request) {
+    return false;
+  }
+  if (transition.trigger.reactive) {
+    return request->priority >= transition.trigger.priority;
+  }
+  if (transition.trigger.verb == Verb::reconsider) {
+    return request->priority >= 1;
+  }
+  return request->priority > transition.level;
+}
+
+// Whether what was asked for would run worse than now.
+bool Oracle::makes_worse(const Transition& transition, const Assignment& values) const {
+  const Problem solved = problem(transition);
+  return asked_product(*facts_, solved, values) < asked_product(*facts_, solved, state_.values);
+}
+
+// Of the whole catalog. A start of the task takes the place of its request.
+std::vector<ActiveRequest> Oracle::suspended_requests(const Transition& transition) const {
+  const Trigger& trigger = transition.trigger;
+  std::vector<ActiveRequest> result;
+  if (trigger.reactive && trigger.priority == 0) {
+    return result;
+  }
+  for (std::size_t task = 0; task < state_.suspended.size(); ++task) {
+    const std::optional<Request>& request = state_.suspended[task];
+    const bool is_started = trigger.verb == Verb::start && task == trigger.subject;
+    if (request && !is_started) {
+      result.push_back({task, request->priority, request->set_by});
+    }
+  }
+  return result;
 }
 
 // Of the whole catalog: those of running tasks, the new one included, one stopped or done excluded.
@@ -298,7 +400,7 @@ std::optional<std::size_t> Oracle::apply(Transition& transition, const Assignmen
     }
     const std::vector<std::size_t> tasks = tasks_performed(values, behavior);
     const std::optional<int> priority = priority_after(transition, tasks);
-    const char* cause = !priority ? "required" : *priority >= 1 ? "requested" : "reactive";
+    const char* cause = activation_cause(transition, tasks);
     const bool undone = transition.active_before.contains(behavior);
     if (!activate(transition, behavior, tasks, undone ? "undone" : cause,
                   undone ? std::nullopt : priority)) {
@@ -333,6 +435,31 @@ const char* Oracle::deactivation_cause(const Transition& transition, const Assig
   return priority_before(tasks) ? "displaced" : "released";
 }
 
+// The cause of an activation for these tasks.
+const char* Oracle::activation_cause(const Transition& transition,
+                                     const std::vector<std::size_t>& tasks) const {
+  const Trigger& trigger = transition.trigger;
+  bool is_resumed = false;
+  bool is_reactive = false;
+  for (const std::size_t task : tasks) {
+    const bool is_started = trigger.verb == Verb::start && task == trigger.subject;
+    if (is_started) {
+      if (!trigger.reactive) {
+        return "requested";
+      }
+      is_reactive = true;
+    } else if (state_.suspended[task]) {
+      is_resumed = true;
+    } else if (state_.requests[task]) {
+      if (state_.requests[task]->priority >= 1) {
+        return "requested";
+      }
+      is_reactive = true;
+    }
+  }
+  return is_resumed ? "resumed" : is_reactive ? "reactive" : "required";
+}
+
 std::optional<int> Oracle::priority_before(const std::vector<std::size_t>& tasks) const {
   std::optional<int> priority;
   for (const std::size_t task : tasks) {
@@ -349,6 +476,13 @@ std::optional<int> Oracle::priority_after(const Transition& transition,
   for (const ActiveRequest& request : active_requests(transition)) {
     if (contains(tasks, request.task)) {
       priority = higher(priority, request.priority);
+    }
+  }
+  for (const std::size_t task : tasks) {
+    const bool is_started =
+        transition.trigger.verb == Verb::start && task == transition.trigger.subject;
+    if (state_.suspended[task] && !is_started) {
+      priority = higher(priority, state_.suspended[task]->priority);
     }
   }
   return priority;
@@ -446,16 +580,34 @@ void Oracle::commit(const Transition& transition, const Assignment& values) {
   state_.values = values;
   if (trigger.verb == Verb::start) {
     std::optional<Request>& request = state_.requests[trigger.subject];
-    Parameters parameters = request ? request->parameters : Parameters();
+    std::optional<Request>& waiting = state_.suspended[trigger.subject];
+    Parameters parameters = request   ? request->parameters
+                            : waiting ? waiting->parameters
+                                      : Parameters();
     if (trigger.parameters) {
       parameters = *trigger.parameters;
     }
     request = Request{trigger.priority, std::move(parameters), event_number_};
+    waiting.reset();
   }
   for (std::size_t task = 0; task < values.size(); ++task) {
+    std::optional<Request>& request = state_.requests[task];
     if (values[task] == none) {
-      state_.requests[task].reset();
-    } else if (values[task] != before[task]) {
+      const bool own_end =
+          contains(transition.finished_tasks, task) && trigger.cause != Cause::situation_change;
+      if (request && facts_->catalog.tasks[task].resume && trigger.verb != Verb::stop && !own_end) {
+        count("suspended");
+        state_.suspended[task] = request;
+      }
+      request.reset();
+      continue;
+    }
+    if (state_.suspended[task]) {
+      count("resumed");
+      request = state_.suspended[task];
+      state_.suspended[task].reset();
+    }
+    if (values[task] != before[task]) {
       taken_at_[task] = now_;
     }
   }
@@ -469,8 +621,12 @@ void Oracle::update_queue(const Transition& transition, const Assignment& before
     if (before[task] == none || state_.values[task] != none) {
       continue;
     }
-    for (const std::size_t other : facts_->excludes[task]) {
-      join_queue(other);
+    for (const std::size_t list : facts_->lists_of[task]) {
+      for (const std::size_t other : facts_->catalog.exclusivity[list]) {
+        if (other != task) {
+          join_queue(other);
+        }
+      }
     }
     const bool own_stop = trigger.verb == Verb::stop && task == trigger.subject;
     const bool own_finish = contains(transition.finished_tasks, task);
@@ -484,8 +640,12 @@ void Oracle::update_queue(const Transition& transition, const Assignment& before
   for (std::size_t task = 0; task < before.size(); ++task) {
     if (before[task] == none && state_.values[task] != none) {
       queue_[task].reset();
-      for (const std::size_t other : facts_->excludes[task]) {
-        queue_[other].reset();
+      for (const std::size_t list : facts_->lists_of[task]) {
+        for (const std::size_t other : facts_->catalog.exclusivity[list]) {
+          if (other != task && counts_against(other, task) && is_blocked_by(other, list)) {
+            queue_[other].reset();
+          }
+        }
       }
     }
   }
@@ -500,7 +660,7 @@ void Oracle::update_waiting(std::size_t group) {
     }
     if (state_.values[task] != none) {
       waiting_.erase(task);
-    } else if (is_excluded_by_running(task)) {
+    } else if (is_blocked(task)) {
       count("waiting: until an exclusive task starts");
       waiting_.erase(task);
     } else {
@@ -518,6 +678,7 @@ std::map<std::size_t, bool> Oracle::queued_tasks(std::size_t group) const {
       trigger.verb = Verb::start;
       trigger.subject = task;
       trigger.reactive = true;
+      trigger.priority = facts_->catalog.tasks[task].reactive_priority;
       result[task] = solve(*facts_, problem(begin(trigger)), nullptr).has_value();
     }
   }

@@ -90,8 +90,10 @@ class PlainSearch {
   void expand(std::size_t place) {
     const Snapshot state = nodes_[place].state;  // the nodes may move
     for (const Move& move : model_.moves(state)) {
+      const Step step = model_.step(state, move);
+      if (!step.exists) continue;
       ++result_.transitions;
-      const Snapshot next = model_.step(state, move).next;
+      const Snapshot& next = step.next;
       for (std::size_t i = 0; i < properties_.size(); ++i) judge_move(i, place, move, next);
       const std::size_t target = add(next, place, move);
       nodes_[place].successors.emplace_back(move, target);

@@ -78,6 +78,20 @@ const Snapshot::RunningTask* find_running(const Snapshot& state, TaskId task) {
   return found == state.running.end() ? nullptr : &*found;
 }
 
+const Request* find_request(const Snapshot& state, TaskId task) {
+  const Snapshot::RunningTask* const entry = find_running(state, task);
+  if (entry != nullptr) return entry->request ? &*entry->request : nullptr;
+  for (const auto& [other, request] : state.suspended) {
+    if (other == task) return &request;
+  }
+  return nullptr;
+}
+
+bool has_failed(const Snapshot& state, BehaviorId behavior) {
+  return std::any_of(state.failed.begin(), state.failed.end(),
+                     [behavior](const auto& entry) { return entry.first == behavior; });
+}
+
 bool is_active(const Snapshot& state, BehaviorId behavior) {
   return std::any_of(state.active.begin(), state.active.end(),
                      [behavior](const auto& entry) { return entry.first == behavior; });
@@ -256,9 +270,7 @@ void PlainModel::add_starts(const Snapshot& state, std::vector<Move>& moves) con
     }
   }
   for (const TaskId task : tasks_) {
-    const Snapshot::RunningTask* const entry = find_running(state, task);
-    if (!contains(assumptions_.stop, task) || entry == nullptr) continue;
-    if (!entry->request) continue;
+    if (!contains(assumptions_.stop, task) || find_request(state, task) == nullptr) continue;
     moves.push_back({Move::Kind::stop, catalog_.tasks[task].catalog_index, 0});
   }
 }
@@ -278,7 +290,13 @@ void PlainModel::add_finishes(const Snapshot& state, std::vector<Move>& moves) c
     }
   };
   if (assumptions_.successes) add(Move::Kind::success, may_succeed);
-  if (assumptions_.failures) add(Move::Kind::failure, [](BehaviorId) { return true; });
+  const bool has_room =
+      !assumptions_.most_failed || state.failed.size() < *assumptions_.most_failed;
+  if (assumptions_.failures) {
+    add(Move::Kind::failure, [&](BehaviorId behavior) {
+      return has_room || catalog_.retry_of(behavior) == Retry::at_events;
+    });
+  }
   add(Move::Kind::situation_change,
       [&](BehaviorId behavior) { return contains(state.denied, behavior); });
 }
@@ -291,7 +309,7 @@ void PlainModel::add_faults(const Snapshot& state, std::vector<Move>& moves) con
     moves.push_back({Move::Kind::fault, catalog_.behaviors[behavior].catalog_index, 0});
   }
   for (const BehaviorId behavior : behaviors_) {
-    if (!contains(state.faulty, behavior)) continue;
+    if (!contains(state.faulty, behavior) && !has_failed(state, behavior)) continue;
     moves.push_back({Move::Kind::repair, catalog_.behaviors[behavior].catalog_index, 0});
   }
 }
@@ -357,6 +375,8 @@ Step PlainModel::step(const Snapshot& state, const Move& move,
   const Snapshot saved = coordinator.snapshot();
   Step step;
   step.next = as_state(saved);
+  step.exists =
+      !assumptions_.most_suspended || step.next.suspended.size() <= *assumptions_.most_suspended;
   step.outcome = listener.outcome;
   for (const std::vector<TaskId>& set : sets_of_queue(step.next)) {
     const auto entry = std::find_if(saved.queue.begin(), saved.queue.end(),
@@ -380,6 +400,9 @@ Snapshot PlainModel::as_state(Snapshot saved) const {
   const auto is_foreign = [&](TaskId task) { return !has_group(catalog_.tasks[task].group); };
   erase_if(saved.queue, [&](const auto& entry) { return is_foreign(entry.first); });
   erase_if(saved.waiting, is_foreign);
+  erase_if(saved.suspended, [&](const auto& entry) { return is_foreign(entry.first); });
+  erase_if(saved.failed,
+           [&](const auto& entry) { return !has_group(catalog_.group_of(entry.first)); });
   std::vector<Snapshot::RunningTask> running;
   std::vector<std::pair<BehaviorId, Microseconds>> active;
   for (Snapshot::RunningTask& entry : saved.running) {
@@ -396,6 +419,7 @@ Snapshot PlainModel::as_state(Snapshot saved) const {
   for (const Snapshot::RunningTask& entry : saved.running) {
     if (entry.request) events.emplace(entry.request->event, 0);
   }
+  for (const auto& entry : saved.suspended) events.emplace(entry.second.event, 0);
   for (const auto& entry : saved.queue) times.emplace(entry.second, 0);
   saved.events = 0;
   for (auto& entry : events) entry.second = ++saved.events;
@@ -408,6 +432,8 @@ Snapshot PlainModel::as_state(Snapshot saved) const {
     entry.since = 0;
     if (entry.request) entry.request->event = events[entry.request->event];
   }
+  for (auto& entry : saved.suspended) entry.second.event = events[entry.second.event];
+  for (auto& entry : saved.failed) entry.second = 0;
   for (auto& entry : saved.active) entry.second = 0;
   for (auto& entry : saved.queue) entry.second = times[entry.second];
   return saved;
@@ -433,8 +459,8 @@ std::string PlainModel::key(const Snapshot& state) const {
   for (const TaskId task : tasks_) {
     const Snapshot::RunningTask* const entry = find_running(state, task);
     entry == nullptr ? open("- ") : add(behavior_of(catalog_, *entry));
-    if (entry == nullptr || !entry->request) continue;
-    requests.emplace(std::pair(entry->request->priority, entry->request->event), task);
+    const Request* const request = find_request(state, task);
+    if (request != nullptr) requests.emplace(std::pair(request->priority, request->event), task);
   }
   open("requests ");
   for (const auto& [when, task] : requests) {
@@ -459,6 +485,10 @@ std::string PlainModel::key(const Snapshot& state) const {
   open("faulty ");
   for (const BehaviorId behavior : behaviors_) {
     if (contains(state.faulty, behavior)) add(behavior);
+  }
+  open("failed ");
+  for (const BehaviorId behavior : behaviors_) {
+    if (has_failed(state, behavior)) add(behavior);
   }
   return key;
 }
@@ -494,13 +524,19 @@ bool PlainModel::holds(const StateCondition& condition, const Snapshot& state) c
       return contains(state.faulty, condition.behavior);
     case Kind::none_faulty:
       return state.faulty.empty();
+    case Kind::failed:
+      return has_failed(state, condition.behavior);
     case Kind::available:
       return !contains(state.denied, condition.behavior) &&
+             !has_failed(state, condition.behavior) &&
              !catalog_.find_misfit(condition.behavior, state.variables);
     case Kind::requested: {
-      const auto* const entry = find_running(state, condition.task);
-      return entry != nullptr && entry->request && entry->request->priority >= condition.priority;
+      const Request* const request = find_request(state, condition.task);
+      return request != nullptr && request->priority >= condition.priority;
     }
+    case Kind::suspended:
+      return find_running(state, condition.task) == nullptr &&
+             find_request(state, condition.task) != nullptr;
     case Kind::variable:
       return contains(condition.values, state.variables[condition.variable]);
     case Kind::own:

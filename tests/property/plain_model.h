@@ -23,6 +23,7 @@ inline constexpr Microseconds reactive_delay = 1000;
 /// What a move led to.
 struct Step {
   Snapshot next;
+  bool exists = true;  ///< false: more requests would be suspended than may be
   /// Of a start, stop or finish: of this event itself.
   std::optional<Outcome> outcome;
   /// By set of the new queue: its place in the queue before the move, or nothing if its tasks
@@ -46,7 +47,7 @@ class PlainModel {
   [[nodiscard]] Snapshot first_state() const;
   /// Whether `never` excludes the situation of the state.
   [[nodiscard]] bool is_excluded(const Snapshot& state) const;
-  /// In the order in which scripts are compared.
+  /// In the order in which scripts are compared. Some may not exist; see Step.
   [[nodiscard]] std::vector<Move> moves(const Snapshot& state) const;
   /// The move need not be one of moves(), but it must be possible. `happenings`: receives all
   /// events, if not null.
@@ -96,7 +97,11 @@ class PlainModel {
 
 /// The entry of a task that runs, or null.
 [[nodiscard]] const Snapshot::RunningTask* find_running(const Snapshot& state, TaskId task);
+/// Its request, suspended or not; or null.
+[[nodiscard]] const Request* find_request(const Snapshot& state, TaskId task);
 [[nodiscard]] bool is_active(const Snapshot& state, BehaviorId behavior);
+/// Whether it is in X.
+[[nodiscard]] bool has_failed(const Snapshot& state, BehaviorId behavior);
 
 /// Handles one move at the present instant, for which the first set is due if the move is that.
 /// Throws std::runtime_error if the coordinator fails.

@@ -119,6 +119,30 @@ const LowerBound event_lower_bounds[] = {
     {"conflict: faulty", 800},
 };
 
+void run_case_with_keys(std::uint64_t seed, Results& results) {
+  Random forms(~seed);
+  if (const auto fault = find_fault(generate_case_with_keys(seed), forms, &results.statistics)) {
+    results.faults.push_back({seed, "seed " + std::to_string(seed) + "\n" + *fault});
+  }
+}
+
+const LowerBound bounds_with_keys[] = {
+    {"suspended", 100},
+    {"resumed", 50},
+    {"suspended: until a stop", 10},
+    {"state: with suspended requests", 500},
+    {"state: with failures that are remembered", 500},
+    {"failed: tried again by a start", 50},
+    {"repair: of what has failed, and is not faulty", 20},
+    {"reconsidered: accepted", 50},
+    {"reconsidered: nothing better", 50},
+    {"activate: resumed", 50},
+    {"reactive start with a priority: accepted", 50},
+    {"decided by: f1, suspended requests", 50},
+    {"decided by: f1, product of what was asked for", 50},
+    {"decided by: f1, what nobody asked for", 50},
+};
+
 constexpr std::uint64_t default_limit_cases = 1000;
 
 void run_limit_case(std::uint64_t seed, Results& results) {
@@ -143,6 +167,10 @@ const LowerBound limit_lower_bounds[] = {
 
 TEST(Property, SameEventsAsTheOracle) {
   run_random_cases(default_event_cases, run_event_case, event_lower_bounds);
+}
+
+TEST(Property, SameEventsAsTheOracleWithFurtherKeys) {
+  run_random_cases(default_event_cases, run_case_with_keys, bounds_with_keys);
 }
 
 // The proven answers are those of the oracle, by the test before.

@@ -81,6 +81,7 @@ class QuestionGenerator {
     for (const TaskId task : catalog_.task_ids) {
       const bool is_usual = catalog_.tasks[task].start_on_request != 0;
       if (!random_.percent(is_usual ? 85 : 12)) continue;
+      if (catalog_.rules_of(task).requestable == 0) continue;
       assumptions.start.push_back({task, random_.pick(priorities)});
     }
     assumptions.stop.clear();
@@ -89,6 +90,11 @@ class QuestionGenerator {
     }
     assumptions.successes = random_.percent(80);
     assumptions.failures = random_.percent(80);
+    if (catalog_.has_further_keys()) {
+      static const std::vector<std::uint32_t> most = {0, 1, 1, 2, 3};
+      if (random_.percent(40)) assumptions.most_failed = random_.pick(most);
+      if (random_.percent(30)) assumptions.most_suspended = random_.pick(most);
+    }
     static const std::vector<std::uint32_t> faults = {0, 0, 0, 1, 1, 2};
     assumptions.faults = random_.pick(faults);
     if (random_.percent(30)) {
@@ -132,8 +138,9 @@ class QuestionGenerator {
     for (std::size_t place = 0; place < found.size() && found.size() < most_states; ++place) {
       const Snapshot state = found[place];
       for (const Move& move : model.moves(state)) {
-        Snapshot next = model.step(state, move).next;
-        if (seen.insert(model.key(next)).second) found.push_back(std::move(next));
+        Step step = model.step(state, move);
+        if (!step.exists) continue;
+        if (seen.insert(model.key(step.next)).second) found.push_back(std::move(step.next));
       }
     }
     state_ = random_.percent(60) ? found.back() : random_.pick(found);
@@ -223,8 +230,13 @@ class QuestionGenerator {
     Property property;
     property.kind = random_.pick(kinds);
     property.name = "P" + std::to_string(question_.properties.size());
+    const TaskId task = random_.pick(tasks_);
+    const bool is_requestable = catalog_.rules_of(task).requestable != 0;
+    if (property.kind == Property::Kind::can_start && !is_requestable) {
+      property.kind = Property::Kind::reachable;
+    }
     if (property.kind == Property::Kind::can_start) {
-      property.task = random_.pick(tasks_);
+      property.task = task;
       property.priority = static_cast<std::int32_t>(random_.between(1, 3));
       if (random_.percent(70)) property.when = draw_nested(1 + random_.below(2));
     } else {
@@ -400,6 +412,14 @@ class QuestionGenerator {
   void add_fact(StateCondition& condition) {
     const TaskId task = random_.pick(tasks_);
     const std::size_t kind = random_.below(100);
+    if (!state_.failed.empty() && random_.percent(20)) {
+      return add(condition,
+                 StateCondition::of_behavior(Kind::failed, random_.pick(state_.failed).first));
+    }
+    if (!state_.suspended.empty() && random_.percent(20)) {
+      return add(condition,
+                 StateCondition::of_task(Kind::suspended, random_.pick(state_.suspended).first));
+    }
     if (kind < 15 && !state_.faulty.empty()) {
       add(condition, StateCondition::of_behavior(Kind::faulty, random_.pick(state_.faulty)));
     } else if (kind < 25 && !variables_.empty()) {
@@ -433,6 +453,11 @@ class QuestionGenerator {
     static const std::vector<std::int32_t> priorities = {1, 1, 2, 3};
     const TaskId task = random_.pick(tasks_);
     const std::size_t kind = random_.below(100);
+    if (catalog_.has_further_keys() && !behaviors_.empty() && random_.percent(20)) {
+      return random_.percent(50) ? add(condition, StateCondition::of_behavior(
+                                                      Kind::failed, random_.pick(behaviors_)))
+                                 : add(condition, StateCondition::of_task(Kind::suspended, task));
+    }
     if (kind < 25 || behaviors_.empty()) {
       const auto values = catalog_.values[task];
       const bool is_any = values.empty() || random_.percent(50);

@@ -16,7 +16,7 @@ std::vector<const Property*> VerifyCase::properties() const {
   return properties;
 }
 
-VerifyCase generate_verify_case(std::uint64_t seed) {
+VerifyCase generate_verify_case(std::uint64_t seed, bool with_keys) {
   oracle::Random random(seed);
   static const std::vector<std::size_t> sizes = {1, 2, 3, 4, 4, 5, 5, 6, 6, 7, 7, 11};
   VerifyCase sample;
@@ -26,6 +26,7 @@ VerifyCase generate_verify_case(std::uint64_t seed) {
       if (task.listed && !task.start_on_request) task.reactive_start = random.percent(60);
     }
   }
+  if (with_keys) oracle::add_further_keys(random, sample.source);
   sample.yaml = oracle::catalog_yaml(sample.source, random);
   sample.catalog = oracle::compile_yaml(sample.yaml).value();
   sample.question = generate_question(random, sample.catalog);
@@ -126,6 +127,10 @@ class Writer {
     for (const TaskId one : assumptions.stop) text += " " + task(one);
     text += assumptions.successes ? "\nsuccesses" : "\nno successes";
     text += assumptions.failures ? ", failures" : ", no failures";
+    if (assumptions.most_failed) text += " of " + std::to_string(*assumptions.most_failed);
+    if (assumptions.most_suspended) {
+      text += ", suspended " + std::to_string(*assumptions.most_suspended);
+    }
     text += ", faults " + std::to_string(assumptions.faults);
     if (assumptions.only_listed_fail) text += " only";
     if (!assumptions.only_listed_fail && !assumptions.listed_for_faults.empty()) text += " but";

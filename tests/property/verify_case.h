@@ -22,8 +22,9 @@ struct VerifyCase {
   [[nodiscard]] std::vector<const Property*> properties() const;
 };
 
-/// The same seed gives the same case. Throws std::runtime_error if the catalog is refused.
-[[nodiscard]] VerifyCase generate_verify_case(std::uint64_t seed);
+/// The same seed gives the same case. `with_keys`: the catalog has the keys that need not be there.
+/// Throws std::runtime_error if the catalog is refused.
+[[nodiscard]] VerifyCase generate_verify_case(std::uint64_t seed, bool with_keys = false);
 
 // For reports: one line for each move; the whole case; a verdict with its script.
 [[nodiscard]] std::string text_of(const CompiledCatalog& catalog, const std::vector<Move>& script);

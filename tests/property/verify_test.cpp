@@ -307,6 +307,8 @@ std::set<std::string> forms_of(const Property& property) {
                  [](const StateCondition& part) { return part.kind == StateCondition::Kind::all; }),
          "all");
     note(condition.kind == StateCondition::Kind::none_faulty, "none faulty");
+    note(condition.kind == StateCondition::Kind::suspended, "suspended");
+    note(condition.kind == StateCondition::Kind::failed, "failed");
     note(condition.behaviors.size() > 1, "list of behaviors");
     note(condition.values.size() > 1, "list of values");
   };
@@ -352,10 +354,10 @@ void read_properties_again(VerifyCase& sample, const Exploration& expected,
   }
 }
 
-void run_case(std::uint64_t seed, oracle::Results& results) {
+void run_case_of(std::uint64_t seed, bool with_keys, oracle::Results& results) {
   VerifyCase sample;
   try {
-    sample = generate_verify_case(seed);
+    sample = generate_verify_case(seed, with_keys);
     const Exploration expected =
         explore_plainly(sample.catalog, sample.question.groups, sample.question.assumptions,
                         sample.properties(), most_states);
@@ -422,8 +424,24 @@ const oracle::LowerBound lower_bounds[] = {
     {"can_start when, not met", 50},
 };
 
+void run_case(std::uint64_t seed, oracle::Results& results) { run_case_of(seed, false, results); }
+
+void run_case_with_keys(std::uint64_t seed, oracle::Results& results) {
+  run_case_of(seed, true, results);
+}
+
+const oracle::LowerBound bounds_with_keys[] = {
+    {"compared", 300},      {"compared up to a limit", 80},
+    {"suspended, met", 50}, {"suspended, not met", 20},
+    {"failed, met", 50},    {"failed, not met", 20},
+};
+
 TEST(Verify, FindsWhatThePlainSearchFinds) {
   oracle::run_random_cases(default_cases, run_case, lower_bounds);
+}
+
+TEST(Verify, FindsWhatThePlainSearchFindsWithFurtherKeys) {
+  oracle::run_random_cases(default_cases, run_case_with_keys, bounds_with_keys);
 }
 
 /// Random questions about catalogs that are too large to be searched plainly.

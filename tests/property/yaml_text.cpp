@@ -383,6 +383,18 @@ class CatalogWriter : public Writer {
     } else {
       add_null_sometimes(node, "minimum_performance");
     }
+    if (!task.requestable) {
+      node.add("requestable", plain("false"));
+    }
+    if (task.reactive_priority != 0) {
+      node.add("reactive_priority", plain(std::to_string(task.reactive_priority)));
+    }
+    if (task.improve != Improve::at_events) {
+      node.add("improve", text(task.improve == Improve::at_once ? "at_once" : "when_started"));
+    }
+    if (task.resume) {
+      node.add("resume", plain("true"));
+    }
     if (noise()) {
       node.add("parameters", declared_parameters());
     } else {
@@ -444,6 +456,10 @@ class CatalogWriter : public Writer {
       node.add("requires", random_.percent(50) ? null() : sequence());
     }
     add_situation(node, behavior);
+    if (behavior.retry != Retry::at_events) {
+      node.add("retry",
+               text(behavior.retry == Retry::when_started ? "when_started" : "after_repair"));
+    }
     if (noise()) {
       node.add("x-since", plain("2"));
     }
@@ -528,13 +544,17 @@ class CatalogWriter : public Writer {
 
   Node exclusivity() {
     Node list = sequence();
-    for (const std::vector<std::size_t>& exclusive : catalog_.exclusivity) {
+    for (std::size_t place = 0; place < catalog_.exclusivity.size(); ++place) {
+      const std::vector<std::size_t>& exclusive = catalog_.exclusivity[place];
       Node names = sequence();
       for (const std::size_t task : exclusive) {
         names.add(text(catalog_.tasks[task].name));
       }
       Node entry = mapping();
       entry.add("mutually_exclusive", std::move(names));
+      if (catalog_.most(place) > 1) {
+        entry.add("at_most", plain(std::to_string(catalog_.most(place))));
+      }
       list.add(std::move(entry));
     }
     return list;
@@ -600,6 +620,7 @@ class ScriptWriter : public Writer {
         node.add("repair", text(catalog_.behaviors[event.subject].name));
         break;
       case Verb::wait:
+      case Verb::reconsider:
         break;
     }
     if (event.priority) {

@@ -47,6 +47,10 @@ TEST(CompiledFile, HoldsTheWholeCatalog) {
   EXPECT_EQ(read.texts[read.behavior_packages[*read.find_behavior("talk")]], "voice");
   EXPECT_EQ(read.requirements[test::behavior_id(read, "go")][0].minimum_performance, 600'000U);
   EXPECT_EQ(read.line_of(read.requirements[test::behavior_id(read, "go")][0]), 11U);
+  EXPECT_EQ(read.rules_of(test::task_id(read, "GO")).improve, Improve::at_once);
+  EXPECT_EQ(read.rules_of(test::task_id(read, "REST")).reactive_priority, 2);
+  EXPECT_EQ(read.retry_of(test::behavior_id(read, "look")), Retry::when_started);
+  EXPECT_EQ(read.limits[0].most, 2U);
 }
 
 TEST(CompiledFile, OfRandomCatalogsIsReadAsItWasWritten) {
@@ -142,7 +146,7 @@ TEST(CompiledFile, OfANewerFormatIsRefusedByItsNumber) {
   // Whatever a newer format may hold.
   bytes.replace(content.begin, content.size, content.size, '\xFF');
   EXPECT_EQ(read_compiled(bytes).error, "its format is version 7, but cbc " + std::string(version) +
-                                            " knows none above 2; a newer cbc can read it");
+                                            " knows none above 3; a newer cbc can read it");
   bytes[place] = 0;
   EXPECT_EQ(read_compiled(bytes).error, "it is damaged or truncated");
 }

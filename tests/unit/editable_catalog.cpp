@@ -190,12 +190,16 @@ Catalog describe_compiled(const CompiledCatalog& compiled) {
     to.minimum_performance = from.minimum_performance;
     to.minimum_performance_range.begin.line = from.minimum_line;
     to.parameters = parameters_of(compiled, from.catalog_index);
+    to.rules = compiled.rules_of(id);
+    if (!compiled.improve_lines.empty()) to.improve_range.begin.line = compiled.improve_lines[id];
   }
   for (const BehaviorId id : compiled.behavior_ids) {
     Behavior& to = catalog.behaviors.emplace_back();
     to.name = compiled.name_of_behavior(id);
     to.package = compiled.texts[compiled.behavior_packages[catalog.behaviors.size() - 1]];
     if (compiled.behaviors[id].timeout != 0) to.timeout = compiled.behaviors[id].timeout;
+    to.retry = compiled.retry_of(id);
+    if (!compiled.retry_lines.empty()) to.retry_range.begin.line = compiled.retry_lines[id];
     for (const ValueId value : compiled.performs[id]) {
       Performance& performance = to.performs.emplace_back();
       performance.task = index_of(compiled.task_of(value));
@@ -212,6 +216,12 @@ Catalog describe_compiled(const CompiledCatalog& compiled) {
     ExclusivityList& list = catalog.exclusivity.emplace_back();
     list.range.begin.line = compiled.clique_lines[clique];
     for (const TaskId task : compiled.cliques[clique]) list.tasks.push_back(index_of(task));
+  }
+  for (std::uint32_t limit = 0; limit < compiled.limits.size(); ++limit) {
+    ExclusivityList& list = catalog.exclusivity.emplace_back();
+    list.range.begin.line = compiled.limits[limit].line;
+    list.at_most = compiled.limits[limit].most;
+    for (const TaskId task : compiled.limited[limit]) list.tasks.push_back(index_of(task));
   }
   catalog.variables = variables_of(compiled);
   for (const FittingValue& fitting : compiled.fitting_values) {

@@ -128,10 +128,11 @@ TEST(NestedConditions, SaySomething) {
             "3:16-17 error wrong-type: 'any' must be a list of conditions, found a mapping\n");
   EXPECT_EQ(findings("never: {any: [{running: [DOCK]}, DOCK]}"),
             "3:36-40 error wrong-type: 'any' must be a mapping, found 'DOCK'\n");
-  EXPECT_EQ(findings("never: {not: {}}"),
-            "3:16-17 error missing-key: 'not' needs a condition: one of 'running', 'stopped', "
-            "'active', 'active_includes', 'faulty', 'available', 'requested', 'situation', 'not', "
-            "'any' and 'all'\n");
+  EXPECT_EQ(
+      findings("never: {not: {}}"),
+      "3:16-17 error missing-key: 'not' needs a condition: one of 'running', 'stopped', "
+      "'active', 'active_includes', 'faulty', 'available', 'requested', 'suspended', 'failed', "
+      "'situation', 'not', 'any' and 'all'\n");
   EXPECT_EQ(findings("never: {faulty: []}"),
             "3:19-20 error invalid-value: 'faulty' must be a list of behaviors or 'none', found an "
             "empty list\n");

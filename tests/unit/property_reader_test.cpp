@@ -142,6 +142,12 @@ std::string describe(const StateCondition& condition) {
       case Kind::none_faulty:
         text += " faulty none";
         break;
+      case Kind::failed:
+        text += " failed " + name_of_behavior(part.behavior);
+        break;
+      case Kind::suspended:
+        text += " suspended " + name_of_task(part.task);
+        break;
       case Kind::available:
         text += " available " + name_of_behavior(part.behavior);
         break;
@@ -510,8 +516,8 @@ TEST(Properties, HaveOneKind) {
 TEST(Properties, HaveConditionsThatSaySomething) {
   constexpr const char* message =
       "error missing-key: 'never' needs a condition: one of 'running', 'stopped', 'active', "
-      "'active_includes', 'faulty', 'available', 'requested', 'situation', 'not', 'any' and "
-      "'all'\n";
+      "'active_includes', 'faulty', 'available', 'requested', 'suspended', 'failed', 'situation', "
+      "'not', 'any' and 'all'\n";
   EXPECT_EQ(findings_of_property("never: {}"), std::string("3:10-11 ") + message);
   EXPECT_EQ(findings_of_property("never: {running: ~}"), std::string("3:10-11 ") + message);
   EXPECT_EQ(
@@ -551,8 +557,8 @@ properties:
       "9:39-40 error situation-value: situation variable 'LIGHT' has no value '1'; its values "
       "are 'day', 'dusk' and 'night'\n"
       "10:5-12 error unknown-key: unknown key 'outcome' in a condition; there are 'running', "
-      "'stopped', 'active', 'active_includes', 'faulty', 'available', 'requested', 'situation', "
-      "'not', 'any' and 'all'\n");
+      "'stopped', 'active', 'active_includes', 'faulty', 'available', 'requested', 'suspended', "
+      "'failed', 'situation', 'not', 'any' and 'all'\n");
 }
 
 // Conditions that never hold ---------------------------------------------------------------------

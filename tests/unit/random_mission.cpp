@@ -67,6 +67,7 @@ void RandomMission::add_random_event() {
       break;
     }
     case Verb::wait:
+    case Verb::reconsider:
       break;
   }
   add(event);

@@ -54,6 +54,8 @@ std::vector<Diagnostic> findings_of(const Rule& rule, std::string_view text,
   }
   const CommentedFile file{"example.yaml", text, document.get(), is_complete};
   SeveritySettings settings;
+  // It is off otherwise.
+  if (rule.name == rule::returning_behavior.name) settings.set(rule, RuleSetting::note);
   return control_findings(diagnostics.release(), file, settings);
 }
 

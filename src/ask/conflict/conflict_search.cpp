@@ -46,6 +46,7 @@ void RelaxedTrail::load(std::span<const Reason> reasons) {
 
 void RelaxedTrail::index_constraints() {
   exclusions_.begin(task_count_);
+  limits_.begin(catalog_.limits.empty() ? 0 : task_count_);
   required_by_.begin(task_count_);
   requirements_.begin(behavior_count_);
   for (const auto put : {&Lists::count, &Lists::add}) {
@@ -54,6 +55,10 @@ void RelaxedTrail::index_constraints() {
       if (reason.kind == Reason::Kind::exclusive) {
         (exclusions_.*put)(reason.task - first_task_, index);
         (exclusions_.*put)(reason.other_task - first_task_, index);
+      } else if (reason.kind == Reason::Kind::limited) {
+        for (const TaskId member : catalog_.limited[reason.limit]) {
+          (limits_.*put)(member - first_task_, index);
+        }
       } else if (reason.kind == Reason::Kind::requires_task) {
         (required_by_.*put)(reason.task - first_task_, index);
         (requirements_.*put)(reason.behavior - first_behavior_, index);
@@ -61,6 +66,7 @@ void RelaxedTrail::index_constraints() {
     }
     if (put == &Lists::count) {
       exclusions_.end_count();
+      limits_.end_count();
       required_by_.end_count();
       requirements_.end_count();
     }
@@ -94,7 +100,32 @@ bool RelaxedTrail::follow_running(LocalTask task) {
     const Cause cause{Cause::Kind::literal, runs(task), index};
     if (!imply(negate(runs(rival - first_task_)), cause)) return false;
   }
-  return true;
+  if (catalog_.limits.empty()) return true;
+  const std::span<const std::uint32_t> limits = limits_[task];
+  return std::all_of(limits.begin(), limits.end(),
+                     [this](std::uint32_t index) { return close_limited(index); });
+}
+
+/// Where as many tasks of a limit run as may, no other one does.
+bool RelaxedTrail::close_limited(std::uint32_t index) {
+  const std::uint32_t limit = constraints_[index].limit;
+  const auto members = catalog_.limited[limit];
+  const std::uint32_t most = catalog_.limits[limit].most;
+  effort_ += members.size();
+  running_.clear();
+  for (const TaskId member : members) {
+    const Literal literal = runs(member - first_task_);
+    if (running_.size() < most && is_true(literal)) running_.push_back(literal);
+  }
+  if (running_.size() < most) return true;
+  Cause cause = store(running_);
+  cause.constraint = index;
+  return std::all_of(members.begin(), members.end(), [&](TaskId member) {
+    const Literal literal = runs(member - first_task_);
+    const bool is_in_reason =
+        std::find(running_.begin(), running_.end(), literal) != running_.end();
+    return is_in_reason || imply(negate(literal), cause);
+  });
 }
 
 bool RelaxedTrail::follow_not_running(LocalTask task) {
@@ -220,7 +251,8 @@ void ConflictSearch::sort(std::span<const Reason> reasons) {
     const Reason::Kind kind = reasons[index].kind;
     if (kind == Reason::Kind::performance) {
       performances_.push_back(index);
-    } else if (kind != Reason::Kind::exclusive && kind != Reason::Kind::requires_task) {
+    } else if (kind != Reason::Kind::exclusive && kind != Reason::Kind::limited &&
+               kind != Reason::Kind::requires_task) {
       state_.push_back(index);
     }
   }
@@ -235,11 +267,23 @@ bool ConflictSearch::apply(const Reason& reason, std::uint32_t index) {
   const Literal runs = reason.task == none ? 0 : Trail::runs(reason.task - first_task_);
   if (reason.kind == Reason::Kind::is_protected) return trail_.imply(runs, cause);
   if (reason.kind == Reason::Kind::on_request) return trail_.imply(negate(runs), cause);
+  if (reason.kind == Reason::Kind::not_improved) {
+    const auto values = catalog_.values[reason.task];
+    const auto present = std::find_if(values.begin(), values.end(), [&reason](const Value& one) {
+      return one.behavior == reason.behavior;
+    });
+    for (std::uint32_t place = 0; values[place].suitability > present->suitability; ++place) {
+      const Literal value = trail_.has_value(reason.task - first_task_, place);
+      if (!trail_.imply(negate(value), cause)) return false;
+    }
+    return true;
+  }
   const auto values = catalog_.performs[reason.behavior];
   return std::all_of(values.begin(), values.end(), [&](ValueId value) {
     const TaskId task = catalog_.task_of(value);
-    const bool is_kept = reason.kind == Reason::Kind::unavailable &&
-                         present_[task - first_task_] == value - catalog_.values.begin[task];
+    const bool is_kept =
+        (reason.kind == Reason::Kind::unavailable || reason.kind == Reason::Kind::not_retried) &&
+        present_[task - first_task_] == value - catalog_.values.begin[task];
     return is_kept || trail_.imply(negate(trail_.has_value(value)), cause);
   });
 }

@@ -64,6 +64,7 @@ class RelaxedTrail final : public Trail {
   };
 
   void index_constraints();
+  [[nodiscard]] bool close_limited(std::uint32_t index);
   [[nodiscard]] bool follow_running(LocalTask task) override;
   [[nodiscard]] bool follow_not_running(LocalTask task) override;
   [[nodiscard]] bool follow_value(LocalTask task, ValueId value) override;
@@ -74,12 +75,14 @@ class RelaxedTrail final : public Trail {
   std::span<const Reason> constraints_;
   // The constraints to look at when one of these changes.
   Lists exclusions_;                           ///< by task of the group
+  Lists limits_;                               ///< by task of the group
   Lists required_by_;                          ///< by task of the group
   Lists requirements_;                         ///< by behavior of the group
   std::vector<std::uint32_t> nogood_origins_;  ///< by no-good: the place of its reasons
   std::vector<std::uint32_t> origin_begins_;   ///< by origin, and the end
   std::vector<std::uint32_t> origin_reasons_;
   std::uint64_t effort_ = 0;  ///< constraints
+  std::vector<Literal> running_;
 };
 
 /// Whether a problem has a solution; unknown at a limit of effort.

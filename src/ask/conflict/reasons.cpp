@@ -7,9 +7,10 @@
 namespace cbc {
 
 std::string_view name_of(Reason::Kind kind) {
-  static constexpr std::array<std::string_view, 12> names{
-      "priority",    "no_behavior", "protected", "exclusive", "on_request", "requires",
-      "performance", "unavailable", "situation", "faulty",    "finished",   "stopped"};
+  static constexpr std::array<std::string_view, 16> names{
+      "priority",    "no_behavior",  "protected",   "exclusive", "at_most", "on_request",
+      "requires",    "performance",  "unavailable", "situation", "faulty",  "not_retried",
+      "makes_worse", "not_improved", "finished",    "stopped"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -57,6 +58,21 @@ void add_exclusions(const CompiledCatalog& catalog, TaskId task, const RelevantT
       reason.line = catalog.clique_lines[clique];
       reasons.push_back(reason);
     }
+  }
+  for (const std::uint32_t limit : catalog.limits_of(task)) {
+    if (reasons.size() >= most) return;
+    const auto members = catalog.limited[limit];
+    const auto first = std::find_if(members.begin(), members.end(),
+                                    [&](TaskId member) { return relevant.contains(member); });
+    const auto count = std::count_if(members.begin(), members.end(),
+                                     [&](TaskId member) { return relevant.contains(member); });
+    if (*first != task || static_cast<std::uint32_t>(count) <= catalog.limits[limit].most) continue;
+    Reason reason;
+    reason.kind = Reason::Kind::limited;
+    reason.task = task;
+    reason.limit = limit;
+    reason.line = catalog.limits[limit].line;
+    reasons.push_back(reason);
   }
 }
 

@@ -36,12 +36,16 @@ struct Reason {
     no_behavior,    ///< no behavior performs the task at all; comes alone
     is_protected,   ///< the task may not stop: its request has a higher priority than the event
     exclusive,      ///< at most one of the two tasks runs
+    limited,        ///< at most so many tasks of a list run
     on_request,     ///< the task is not running, and starts on request only
     requires_task,  ///< if the behavior is assigned, the task runs
     performance,    ///< if it is (without a behavior: always), the task performs well enough
     unavailable,    ///< a script said that the behavior cannot be activated
     situation,      ///< the behavior does not fit the present situation
     faulty,         ///< the activation of the behavior failed in this event
+    not_retried,    ///< the behavior failed before, and is not tried again yet
+    makes_worse,    ///< what was asked for would run worse for a task that nobody asked for; alone
+    not_improved,   ///< the task gets better than with its behavior only when it is started
     // Not where the event is rejected:
     finished,  ///< the behavior has just finished
     stopped    ///< the event stops the task
@@ -56,6 +60,8 @@ struct Reason {
   Millionths minimum_performance = 0;  ///< of performance
   std::uint32_t variable = none;       ///< of situation: one that the behavior does not fit
   std::uint32_t value = 0;             ///< of situation: its present value; none: any misfit
+  std::uint32_t limit = none;          ///< of limited: its number in the catalog
+  Microseconds time = 0;               ///< of not_retried: when it failed
   std::uint32_t line = 0;              ///< of the catalog; 0 if no line states the reason
   /// Of performance, where it is known: the values of the task and of all that it requires with
   /// which the task would do best without this minimum (docs/semantics.md, "Rejection").
@@ -89,7 +95,8 @@ class RelevantTasks {
   std::vector<TaskId> tasks_;
 };
 
-/// Appends the exclusions of a task with later relevant tasks; stops at `most` reasons in all.
+/// Appends the exclusions of a task with later relevant tasks, and the limits of which it is the
+/// first relevant task; stops at `most` reasons in all.
 void add_exclusions(const CompiledCatalog& catalog, TaskId task, const RelevantTasks& relevant,
                     std::size_t most, std::vector<Reason>& reasons);
 

@@ -50,6 +50,7 @@ std::optional<std::size_t> search(const std::vector<std::size_t>& few,
 
 Exclusions::Exclusions(const Catalog& catalog) : lists_(catalog.tasks.size()) {
   for (std::size_t list = 0; list < catalog.exclusivity.size(); ++list) {
+    if (catalog.exclusivity[list].at_most > 1) continue;
     for (const TaskIndex task : catalog.exclusivity[list].tasks) {
       auto& of_task = lists_[task];
       if (of_task.empty() || of_task.back() != list) of_task.push_back(list);
@@ -270,7 +271,7 @@ bool same_task(const Task& a, const Task& b) {
   return a.name == b.name && a.implicit == b.implicit && a.execution_goal == b.execution_goal &&
          a.start_on_request == b.start_on_request && a.reactive_start == b.reactive_start &&
          a.timeout == b.timeout && a.minimum_performance == b.minimum_performance &&
-         same_parameters(a, b);
+         a.rules == b.rules && same_parameters(a, b);
 }
 
 /// What a behavior requires of each task: the highest of the minimums.
@@ -299,7 +300,8 @@ bool same_behavior(const Behavior& a, const Behavior& b) {
                    return x.task == y.task && x.suitability == y.suitability;
                  });
   return same_performs && a.name == b.name && a.package == b.package && a.timeout == b.timeout &&
-         requirements_of(a) == requirements_of(b) && conditions_of(a) == conditions_of(b);
+         a.retry == b.retry && requirements_of(a) == requirements_of(b) &&
+         conditions_of(a) == conditions_of(b);
 }
 
 bool same_variable(const Variable& a, const Variable& b) {
@@ -312,10 +314,23 @@ using Clique = std::vector<TaskIndex>;
 std::set<Clique> cliques_of(const Catalog& catalog) {
   std::set<Clique> cliques;
   for (const ExclusivityList& list : catalog.exclusivity) {
+    if (list.at_most > 1) continue;
     Clique clique = distinct_tasks(list);
     if (clique.size() > 1) cliques.insert(std::move(clique));
   }
   return cliques;
+}
+
+/// The lists that let several tasks run, and restrict them.
+std::set<std::pair<Clique, std::uint32_t>> limits_of(const Catalog& catalog) {
+  std::set<std::pair<Clique, std::uint32_t>> limits;
+  for (const ExclusivityList& list : catalog.exclusivity) {
+    Clique tasks = distinct_tasks(list);
+    if (list.at_most > 1 && tasks.size() > list.at_most) {
+      limits.emplace(std::move(tasks), list.at_most);
+    }
+  }
+  return limits;
 }
 
 /// Whether each clique is contained in one of `others`.
@@ -351,7 +366,8 @@ bool same_meaning(const Catalog& a, const Catalog& b) {
   }
   const std::set<Clique> of_a = cliques_of(a);
   const std::set<Clique> of_b = cliques_of(b);
-  return are_contained(of_a, of_b, a.tasks.size()) && are_contained(of_b, of_a, a.tasks.size());
+  return limits_of(a) == limits_of(b) && are_contained(of_a, of_b, a.tasks.size()) &&
+         are_contained(of_b, of_a, a.tasks.size());
 }
 
 }  // namespace cbc

@@ -10,6 +10,7 @@
 #include "cbc/units.h"
 #include "core/diagnostic/diagnostic.h"
 #include "runtime/base/text.h"
+#include "runtime/compiled/task_rules.h"
 
 /// A catalog that was read from YAML, and questions about it as a whole.
 namespace cbc {
@@ -43,6 +44,11 @@ struct Task {
   std::optional<Range> own_timeout_range;  ///< of a timeout that is not a default
   Millionths minimum_performance = 0;      ///< 0: none
   Range minimum_performance_range;
+  TaskRules rules;
+  std::optional<Range> own_resume_range;   ///< of a resume that is not a default
+  std::optional<Range> own_improve_range;  ///< of an improve that is not a default
+  Range improve_range;                     ///< of any
+  Range reactive_priority_range;
   std::vector<Parameter> parameters;
 };
 
@@ -86,14 +92,18 @@ struct Behavior {
   std::string package;
   std::optional<Microseconds> timeout;
   Range timeout_range;
+  Retry retry = Retry::at_events;
+  Range retry_range;
   std::vector<Performance> performs;      ///< at least one; tasks differ
   std::vector<Requirement> requirements;  ///< in the order of the file; a task may stand twice
   std::vector<Condition> situation;       ///< one for each variable that it names
   std::optional<Range> situation_range;   ///< from the first to the last, if there are any
 };
 
-/// Tasks of which at most one runs at a time.
+/// Tasks of which at most one runs at a time, or at most so many.
 struct ExclusivityList {
+  std::uint32_t at_most = 1;
+  Range at_most_range;
   std::vector<TaskIndex> tasks;  ///< in the order of the file; a task may stand twice
   std::vector<Range> ranges;     ///< of each name
   Range range;
@@ -135,13 +145,13 @@ struct Catalog {
 /// another count as one.
 [[nodiscard]] bool same_meaning(const Catalog& a, const Catalog& b);
 
-/// Finds exclusivity lists that two tasks share. Each pair is looked up once, in the lists of the
-/// task that has fewer, so that no catalog makes it quadratic.
+/// Finds exclusivity lists by which two tasks exclude each other. Each pair is looked up once, in
+/// the lists of the task that has fewer, so that no catalog makes it quadratic.
 class Exclusions {
  public:
   explicit Exclusions(const Catalog& catalog);
 
-  /// Places in Catalog::exclusivity of the lists that have a task, ascending.
+  /// Places in Catalog::exclusivity of the lists that have a task and let one task run, ascending.
   [[nodiscard]] const std::vector<std::size_t>& lists_of(TaskIndex task) const {
     return lists_[task];
   }

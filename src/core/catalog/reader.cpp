@@ -70,7 +70,9 @@ class Reader {
     resolve_names();
     CatalogReading reading;
     const std::size_t hiding =
-        hiding_errors(reporter_) - reporter_.errors(rule::on_request_and_reactive);
+        hiding_errors(reporter_) - reporter_.errors(rule::on_request_and_reactive) -
+        reporter_.errors(rule::unrequestable) - reporter_.errors(rule::cannot_resume) -
+        reporter_.errors(rule::priority_without_reaction);
     reading.is_complete = hiding == 0;
     reading.has_all_names = hiding == value_errors_ + situation_errors_;
     const auto without_task = static_cast<std::size_t>(std::count_if(
@@ -171,6 +173,7 @@ class Reader {
       default_suitability_ = read_value([&] { return read_suitability(defaults); });
       if (default_suitability_) numbers_.back().is_default = true;
       default_package_ = read_value([&] { return read_package(defaults); });
+      default_retry_ = read_value([&] { return read_retry(defaults); });
       defaults.report_unknown(yaml::UnknownKeys::ignored);
     }
     fields.report_unknown(yaml::UnknownKeys::ignored);
@@ -194,7 +197,18 @@ class Reader {
     attributes.reactive_start = read_flag(fields, "reactive_start");
     if (const auto older = read_flag(fields, "default")) attributes.reactive_start = older;
     attributes.timeout = read_timeout(fields);
+    if (const Node* node = fields.find("improve")) {
+      const auto place = yaml::read_choice(*node, "improve", improve_words, reporter_);
+      if (place) attributes.improve = Placed<Improve>{static_cast<Improve>(*place), node->range};
+    }
+    attributes.resume = read_flag(fields, "resume");
+    attributes.requestable = read_flag(fields, "requestable");
+    if (const Node* node = fields.find("reactive_priority")) {
+      const auto number = yaml::read_integer(*node, "reactive_priority", 0, reporter_);
+      if (number) attributes.reactive_priority = Placed<std::int32_t>{*number, node->range};
+    }
     attributes.is_unclear = reporter_.errors() > errors;
+    attributes.has_unknown_key = fields.has_unknown();
     return attributes;
   }
 
@@ -376,6 +390,14 @@ class Reader {
     return yaml::read_text(*node, "package", "the name of a package", reporter_);
   }
 
+  std::optional<Placed<Retry>> read_retry(const Fields& fields) {
+    const Node* node = fields.find("retry");
+    if (node == nullptr) return std::nullopt;
+    const auto place = yaml::read_choice(*node, "retry", retry_words, reporter_);
+    if (!place) return std::nullopt;
+    return Placed<Retry>{static_cast<Retry>(*place), node->range};
+  }
+
   void read_behavior(const Node& node) {
     if (!expect_entry(node, "a behavior", "behavior: NAME")) {
       ++nameless_tasks_;
@@ -395,6 +417,11 @@ class Reader {
     if (const auto timeout = read_value([&] { return read_timeout(fields); })) {
       behavior.timeout = timeout->value;
       behavior.timeout_range = timeout->range;
+    }
+    const auto retry = read_value([&] { return read_retry(fields); });
+    if (const auto& given = retry ? retry : default_retry_) {
+      behavior.retry = given->value;
+      behavior.retry_range = given->range;
     }
     read_performed(fields, behavior);
     std::vector<std::string_view> required;
@@ -542,6 +569,10 @@ class Reader {
     Fields fields(node, shape::exclusivity_list, reporter_);
     const Node* value = fields.require("mutually_exclusive", node.range);
     const Range range = value == nullptr ? node.range : fields.range_of("mutually_exclusive");
+    const Node* const most = fields.find("at_most");
+    const auto at_most = most == nullptr ? std::optional<std::int32_t>() : read_value([&] {
+      return yaml::read_integer(*most, "at_most", 1, reporter_);
+    });
     fields.report_unknown(yaml::UnknownKeys::ignored);
     if (value == nullptr) return;
     const Node* list =
@@ -549,6 +580,11 @@ class Reader {
     if (list == nullptr) return;
     ExclusivityList result;
     result.range = range;
+    if (most != nullptr) {
+      // A limit that could not be read must exclude nothing.
+      result.at_most = at_most ? static_cast<std::uint32_t>(*at_most) : UINT32_MAX;
+      result.at_most_range = most->range;
+    }
     std::vector<std::string_view> names;
     for (const Node* item : list->items) {
       if (const auto name =
@@ -708,6 +744,7 @@ class Reader {
   GivenAttributes task_defaults_;
   std::optional<std::string_view> default_package_;
   std::optional<Percent> default_suitability_;
+  std::optional<Placed<Retry>> default_retry_;
   TaskAttributes attributes_;
   std::vector<NamePlace> names_;
   std::vector<NumberPlace> numbers_;

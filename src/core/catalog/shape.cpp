@@ -33,14 +33,16 @@ constexpr Key task_defaults_keys[] = {{"execution_goal"},
                                       {"start_on_request"},
                                       {"reactive_start"},
                                       {"timeout"},
+                                      {"improve"},
+                                      {"resume"},
                                       {"category", "execution_goal", present_goal},
                                       {"automatic_activation", "start_on_request", yaml::opposite},
                                       {"default", "reactive_start"}};
 constexpr Key behavior_defaults_keys[] = {
-    {"suitability"}, {"package"}, {"efficacy", "suitability"}};
-constexpr Key behavior_keys[] = {{"behavior"},  {"package"},     {"task"},
-                                 {"tasks"},     {"requires"},    {"timeout"},
-                                 {"situation"}, {"suitability"}, {"efficacy", "suitability"}};
+    {"suitability"}, {"package"}, {"retry"}, {"efficacy", "suitability"}};
+constexpr Key behavior_keys[] = {
+    {"behavior"}, {"package"},   {"task"},  {"tasks"},       {"requires"},
+    {"timeout"},  {"situation"}, {"retry"}, {"suitability"}, {"efficacy", "suitability"}};
 constexpr Key performance_keys[] = {{"task"}, {"suitability"}, {"efficacy", "suitability"}};
 constexpr Key requirement_keys[] = {{"task"}, {"minimum_performance"}};
 constexpr Key task_keys[] = {{"task"},
@@ -49,12 +51,16 @@ constexpr Key task_keys[] = {{"task"},
                              {"reactive_start"},
                              {"timeout"},
                              {"minimum_performance"},
+                             {"requestable"},
+                             {"reactive_priority"},
+                             {"improve"},
+                             {"resume"},
                              {"parameters"},
                              {"category", "execution_goal", present_goal},
                              {"automatic_activation", "start_on_request", yaml::opposite},
                              {"default", "reactive_start"}};
 constexpr Key parameter_keys[] = {{"parameter"}, {"allowed_values"}};
-constexpr Key exclusivity_list_keys[] = {{"mutually_exclusive"}};
+constexpr Key exclusivity_list_keys[] = {{"mutually_exclusive"}, {"at_most"}};
 
 constexpr Key variable_keys[] = {{"variable"}, {"values"}};
 

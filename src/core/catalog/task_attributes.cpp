@@ -82,9 +82,59 @@ void TaskAttributes::apply(const Range& range, const GivenAttributes& own, Task&
   if (const auto& timeout = own.timeout ? own.timeout : defaults_.timeout) {
     task.timeout = timeout->value;
   }
+  apply_rules(own, task);
   const bool is_certain = !task.is_unclear || (own.start_on_request && own.reactive_start);
   if (flags.start_on_request && flags.reactive_start && is_certain) {
     report_both_flags(range, own, task);
+  }
+}
+
+/// A default `resume` does not reach the tasks of which it could not be said.
+void TaskAttributes::apply_rules(const GivenAttributes& own, Task& task) {
+  TaskRules& rules = task.rules;
+  if (own.requestable) rules.requestable = own.requestable->value ? 1 : 0;
+  if (own.reactive_priority) {
+    rules.reactive_priority = task.reactive_start ? own.reactive_priority->value : 0;
+    task.reactive_priority_range = own.reactive_priority->range;
+  }
+  if (const auto& improve = own.improve ? own.improve : defaults_.improve) {
+    rules.improve = improve->value;
+    task.improve_range = improve->range;
+  }
+  if (own.improve) task.own_improve_range = own.improve->range;
+  const bool may_resume =
+      rules.requestable != 0 && !task.reactive_start && rules.improve != Improve::when_started;
+  if (own.resume) {
+    rules.resume = own.resume->value ? 1 : 0;
+    task.own_resume_range = own.resume->range;
+  } else if (defaults_.resume) {
+    rules.resume = defaults_.resume->value && may_resume ? 1 : 0;
+  }
+  if (!task.is_unclear) report_rules(own, task);
+}
+
+void TaskAttributes::report_rules(const GivenAttributes& own, const Task& task) {
+  const std::string name = "task " + quote(task.name);
+  if (task.rules.requestable == 0 && task.start_on_request) {
+    reporter_.report(rule::unrequestable, own.requestable->range,
+                     name + " can never run: it starts only on request, and nobody can request it");
+  }
+  if (own.reactive_priority && !task.reactive_start && !own.has_unknown_key) {
+    reporter_.report(rule::priority_without_reaction, own.reactive_priority->range,
+                     name +
+                         " has a reactive_priority, but no reactive_start: it never starts by "
+                         "itself as a reaction");
+  }
+  if (!own.resume || !own.resume->value) return;
+  const auto report = [&](const std::string& reason) {
+    reporter_.report(rule::cannot_resume, own.resume->range, name + " cannot resume: " + reason);
+  };
+  if (task.rules.requestable == 0) {
+    report("nobody can request it, so there is no request to be kept");
+  } else if (task.reactive_start) {
+    report("it starts by itself (reactive_start)");
+  } else if (task.rules.improve == Improve::when_started) {
+    report("what gets better only when somebody starts it does not come back unasked (improve)");
   }
 }
 
@@ -135,6 +185,23 @@ std::string TaskAttributes::describe_changes(const TaskEntry& before, const Task
   changes.compare("timeout", timeout(before), timeout(now));
   changes.compare("minimum_performance", name_of_minimum(before.minimum_performance),
                   name_of_minimum(now.minimum_performance));
+  const auto rules = [this](const TaskEntry& entry) {
+    Task task;
+    task.is_unclear = true;  // reports nothing
+    const Flags flags = flags_of(entry.attributes, defaults_);
+    task.reactive_start = flags.reactive_start;
+    TaskAttributes(defaults_, reporter_).apply_rules(entry.attributes, task);
+    return task.rules;
+  };
+  const TaskRules old_rules = rules(before);
+  const TaskRules new_rules = rules(now);
+  changes.compare("requestable", name_of(old_rules.requestable != 0),
+                  name_of(new_rules.requestable != 0));
+  changes.compare("reactive_priority", std::to_string(old_rules.reactive_priority),
+                  std::to_string(new_rules.reactive_priority));
+  changes.compare("improve", std::string(word_of(old_rules.improve)),
+                  std::string(word_of(new_rules.improve)));
+  changes.compare("resume", name_of(old_rules.resume != 0), name_of(new_rules.resume != 0));
   if (!same_parameters(before.parameters, now.parameters)) {
     changes.add(now.parameters.empty() ? "no parameters" : "other parameters");
   }

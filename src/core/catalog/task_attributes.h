@@ -34,7 +34,13 @@ struct GivenAttributes {
   std::optional<Flag> start_on_request;
   std::optional<Flag> reactive_start;
   std::optional<Timeout> timeout;
-  bool is_unclear = false;  ///< one of them could not be read
+  std::optional<Placed<Improve>> improve;
+  std::optional<Flag> resume;
+  // Of entries alone.
+  std::optional<Flag> requestable;
+  std::optional<Placed<std::int32_t>> reactive_priority;
+  bool is_unclear = false;       ///< one of them could not be read
+  bool has_unknown_key = false;  ///< beside them
 };
 
 /// An entry of a task; a task may have several, of which the last one counts.
@@ -61,6 +67,8 @@ class TaskAttributes {
 
  private:
   void report_both_flags(const Range& range, const GivenAttributes& own, const Task& task);
+  void apply_rules(const GivenAttributes& own, Task& task);
+  void report_rules(const GivenAttributes& own, const Task& task);
 
   const GivenAttributes& defaults_;
   Reporter& reporter_;

@@ -384,15 +384,19 @@ class Containment {
   }
 
  private:
-  /// A list with all tasks of `list`; of equal lists an earlier one. The number of lists if there
-  /// is none.
+  /// A list with all tasks of `list` that lets no more of them run; of equal lists an earlier one.
+  /// The number of lists if there is none.
   std::size_t find_container(std::size_t list) {
     const auto rarest = *std::min_element(
         tasks_[list].begin(), tasks_[list].end(),
         [this](TaskIndex a, TaskIndex b) { return lists_of_[a].size() < lists_of_[b].size(); });
     for (const std::size_t other : lists_of_[rarest]) {
       if (other == list || tasks_[other].size() < tasks_[list].size()) continue;
-      if (tasks_[other].size() == tasks_[list].size() && other > list) continue;
+      if (most(other) > most(list)) continue;
+      if (tasks_[other].size() == tasks_[list].size() && most(other) == most(list) &&
+          other > list) {
+        continue;
+      }
       if (work_left_ < tasks_[list].size() + tasks_[other].size()) break;
       work_left_ -= tasks_[list].size() + tasks_[other].size();
       if (std::includes(tasks_[other].begin(), tasks_[other].end(), tasks_[list].begin(),
@@ -401,6 +405,10 @@ class Containment {
       }
     }
     return tasks_.size();
+  }
+
+  [[nodiscard]] std::uint32_t most(std::size_t list) const {
+    return catalog_.exclusivity[list].at_most;
   }
 
   const Catalog& catalog_;
@@ -516,6 +524,7 @@ CheckedCatalog lint_catalog(const yaml::Document& document, const LintOptions& o
   check_tasks(reading, reporter);
   check_behaviors(catalog, reading.is_complete, reporter);
   check_exclusivity(catalog, reporter);
+  check_keys(catalog, reporter);
   check_names(catalog, reporter);
   const Positions exclusive = find_exclusive_requirements(diagnostics, document.file(), options);
   const std::vector<bool> conflicts = check_conflicting_requirements(catalog, exclusive, reporter);

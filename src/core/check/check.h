@@ -54,6 +54,9 @@ struct CheckedCatalog {
 /// the two are not compared. Events of the situation name behaviors and variables alike.
 void check_names(const Catalog& catalog, Reporter& reporter);
 
+/// Reports what is odd about `improve`, `resume`, `reactive_priority` and `at_most`.
+void check_keys(const Catalog& catalog, Reporter& reporter);
+
 /// Checks a catalog under the control of its comments and of settings, which replace what `options`
 /// says about settings. `text` is that of the document; `diagnostics` has what was found before.
 [[nodiscard]] CheckedCatalog check_catalog(const yaml::Document& document, std::string_view text,

@@ -115,7 +115,7 @@ class DeadCheck {
   /// these tasks require in turn: in a long chain above a dead task there are many such values.
   [[nodiscard]] bool requires_only_dead_tasks(ValueId value) {
     const auto has_minimum = [this](TaskId task) {
-      return catalog_.tasks[task].minimum_performance > 0;
+      return catalog_.tasks[task].minimum_performance > 0 || !catalog_.limits_of(task).empty();
     };
     const TaskId task = catalog_.task_of(value);
     const auto requirements = catalog_.requirements[catalog_.values.items[value].behavior];

@@ -75,6 +75,22 @@ Note ProofContext::note_of(const Reason& reason) const {
         range_of_list(catalog_, task_index, other),
         quote(required.name) + " excludes " + quote(task(reason.other_task).name));
   }
+  if (reason.kind == Reason::Kind::limited) {
+    std::vector<std::string> names;
+    std::vector<TaskIndex> members;
+    for (const TaskId member : compiled().limited[reason.limit]) {
+      members.push_back(compiled().tasks[member].catalog_index);
+    }
+    std::sort(members.begin(), members.end());
+    for (const TaskIndex member : members) names.push_back(quote(catalog_.tasks[member].name));
+    const auto list = std::find_if(
+        catalog_.exclusivity.begin(), catalog_.exclusivity.end(), [&](const ExclusivityList& one) {
+          return one.range.begin.line == reason.line && distinct_tasks(one) == members;
+        });
+    return reporter_.note(list->range, "at most " +
+                                           std::to_string(compiled().limits[reason.limit].most) +
+                                           " of " + list_with_and(names) + " run");
+  }
   if (reason.behavior == none) {
     return reporter_.note(
         required.minimum_performance_range,

@@ -175,6 +175,10 @@ inline constexpr auto constraints = object(
            &ConstraintCount::requirements),
     member("task_minimums", count, "Tasks with a minimum performance.",
            &ConstraintCount::task_minimums),
+    optional("limits", count, "Lists of tasks of which several may run, if there are any.",
+             [](const ConstraintCount& of) {
+               return of.limits == 0 ? std::nullopt : std::optional(of.limits);
+             }),
     member("total", count, "", &ConstraintCount::total));
 
 inline constexpr auto search_space =

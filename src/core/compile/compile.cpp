@@ -35,7 +35,9 @@ class Compiler {
     add_behaviors();
     add_values();
     add_cliques();
+    add_limits();
     add_situation();
+    add_rules();
     derive_rest(out_);
     return to_catalog(std::move(out_));
   }
@@ -188,6 +190,7 @@ class Compiler {
     };
     std::vector<Clique> cliques;
     for (const ExclusivityList& list : catalog_.exclusivity) {
+      if (list.at_most > 1) continue;
       Clique clique;
       clique.line = list.range.begin.line;
       for (const TaskIndex task : list.tasks) clique.tasks.push_back(out_.task_ids[task]);
@@ -203,6 +206,40 @@ class Compiler {
     for (const Clique& clique : cliques) {
       out_.cliques.add_row(clique.tasks);
       out_.clique_lines.push_back(clique.line);
+    }
+  }
+
+  void add_limits() {
+    for (const ExclusivityList& list : catalog_.exclusivity) {
+      if (list.at_most == 1) continue;
+      std::vector<TaskId> tasks;
+      for (const TaskIndex task : distinct_tasks(list)) tasks.push_back(out_.task_ids[task]);
+      if (tasks.size() < 2) continue;
+      std::sort(tasks.begin(), tasks.end());
+      out_.limits.push_back({list.at_most, list.range.begin.line});
+      out_.limited.add_row(tasks);
+    }
+    if (out_.limits.empty()) out_.limited.begin.clear();
+  }
+
+  /// Only where a key is used.
+  void add_rules() {
+    if (std::any_of(catalog_.tasks.begin(), catalog_.tasks.end(),
+                    [](const Task& task) { return task.rules != TaskRules(); })) {
+      out_.task_rules.resize(task_count());
+      out_.improve_lines.resize(task_count());
+      for (TaskIndex index = 0; index < task_count(); ++index) {
+        const TaskId id = out_.task_ids[index];
+        out_.task_rules[id] = catalog_.tasks[index].rules;
+        out_.improve_lines[id] = catalog_.tasks[index].improve_range.begin.line;
+      }
+    }
+    if (std::any_of(by_id_.begin(), by_id_.end(),
+                    [](const Behavior* one) { return one->retry != Retry::at_events; })) {
+      for (const Behavior* one : by_id_) {
+        out_.retries.push_back(one->retry);
+        out_.retry_lines.push_back(one->retry_range.begin.line);
+      }
     }
   }
 
@@ -311,6 +348,7 @@ void add(ConstraintCount& sum, const ConstraintCount& count) {
   sum.exclusive_pairs += count.exclusive_pairs;
   sum.requirements += count.requirements;
   sum.task_minimums += count.task_minimums;
+  sum.limits += count.limits;
 }
 
 }  // namespace
@@ -335,6 +373,7 @@ CatalogSummary summarize(const CompiledCatalog& catalog) {
     for (TaskId task = begin; task < end; ++task) {
       numbers.levels = std::max(numbers.levels, 1 + catalog.tasks[task].level);
       if (catalog.tasks[task].minimum_performance > 0) ++numbers.constraints.task_minimums;
+      numbers.constraints.limits += limits_from(catalog, task).size();
       sizes.push_back(static_cast<std::uint32_t>(1 + catalog.values[task].size()));
       numbers.task_names.emplace_back(catalog.name_of_task(task));
     }
@@ -347,6 +386,14 @@ CatalogSummary summarize(const CompiledCatalog& catalog) {
   summary.total.behaviors = catalog.behaviors.size();
   summary.total.search_space = search_space(all_sizes);
   return summary;
+}
+
+std::vector<std::uint32_t> limits_from(const CompiledCatalog& catalog, TaskId task) {
+  std::vector<std::uint32_t> limits;
+  for (const std::uint32_t limit : catalog.limits_of(task)) {
+    if (catalog.limited[limit].front() == task) limits.push_back(limit);
+  }
+  return limits;
 }
 
 std::vector<std::uint32_t> cliques_of_group(const CompiledCatalog& catalog, std::size_t group) {

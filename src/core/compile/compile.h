@@ -24,9 +24,10 @@ struct ConstraintCount {
   std::uint64_t exclusive_pairs = 0;  ///< distinct unordered pairs of different tasks
   std::uint64_t requirements = 0;     ///< distinct (behavior, task)
   std::uint64_t task_minimums = 0;
+  std::uint64_t limits = 0;  ///< lists of which more than one task may run
 
   [[nodiscard]] std::uint64_t total() const {
-    return exclusive_pairs + requirements + task_minimums;
+    return exclusive_pairs + requirements + task_minimums + limits;
   }
 };
 
@@ -49,6 +50,9 @@ struct CatalogSummary {
 };
 
 [[nodiscard]] CatalogSummary summarize(const CompiledCatalog& catalog);
+
+/// The limits of which a task is the first one.
+[[nodiscard]] std::vector<std::uint32_t> limits_from(const CompiledCatalog& catalog, TaskId task);
 
 /// The exclusivity lists of a group, as places in CompiledCatalog::cliques, by their first task.
 [[nodiscard]] std::vector<std::uint32_t> cliques_of_group(const CompiledCatalog& catalog,

@@ -114,9 +114,9 @@ class KeyWords {
   }
 
   static bool is_wanted(std::string_view word) {
-    const std::array<Words, 8> wanted = {sections_of_catalogs, common_sections, entries_of_catalogs,
-                                         keys_of_scripts,      expectation,     keys_of_properties,
-                                         kinds_of_properties,  words_of<Verb>()};
+    const std::array<Words, 8> wanted = {
+        sections_of_catalogs, common_sections,    entries_of_catalogs, keys_of_scripts,
+        expectation,          keys_of_properties, kinds_of_properties, scripted_verb_words()};
     return std::any_of(wanted.begin(), wanted.end(), [word](Words words) {
       return std::find(words.begin(), words.end(), word) != words.end();
     });
@@ -151,7 +151,7 @@ bool is_script(const yaml::Node& root) {
   // Another list is more likely a catalog that lacks a key.
   return root.items.empty() ||
          std::any_of(root.items.begin(), root.items.end(), [&](const yaml::Node* item) {
-           return has_any(*item, words_of<Verb>()) || has_any(*item, other_event_keys);
+           return has_any(*item, scripted_verb_words()) || has_any(*item, other_event_keys);
          });
 }
 
@@ -165,7 +165,7 @@ bool has_misspelt_events(const yaml::Node& root) {
 bool has_events(const yaml::Node& node) {
   return node.kind == yaml::Kind::sequence &&
          std::any_of(node.items.begin(), node.items.end(), [](const yaml::Node* item) {
-           return has_any(*item, words_of<Verb>()) || item->find("expect") != nullptr;
+           return has_any(*item, scripted_verb_words()) || item->find("expect") != nullptr;
          });
 }
 
@@ -174,7 +174,7 @@ bool has_misspelt_verb(const yaml::Node* events) {
   if (events == nullptr || events->items.empty()) return false;
   const auto& entries = events->items.front()->entries;
   return std::any_of(entries.begin(), entries.end(), [](const auto& entry) {
-    return nearest(entry.first->text, words_of<Verb>()).has_value();
+    return nearest(entry.first->text, scripted_verb_words()).has_value();
   });
 }
 
@@ -209,7 +209,7 @@ Recognition recognize_root(const yaml::Node& root) {
 Recognition recognize_words(const KeyWords& words) {
   constexpr bool is_faulty = true;
   if (words.has_any(sections_of_catalogs)) return {FileKind::catalog, is_faulty};
-  const bool has_verb = words.has_any(words_of<Verb>());
+  const bool has_verb = words.has_any(scripted_verb_words());
   if ((words.has_any(keys_of_scripts) && (has_verb || words.has_any(expectation))) ||
       (has_verb && words.has_any(expectation))) {
     return {FileKind::script, is_faulty};

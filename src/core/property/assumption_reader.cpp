@@ -51,7 +51,10 @@ class AssumptionReader {
     if (const Node* start = fields.find("start")) read_start(*start);
     if (const Node* stop = fields.find("stop")) read_stop(*stop);
     read_flag(fields, "successes", out_.successes);
-    read_flag(fields, "failures", out_.failures);
+    if (const Node* failures = fields.find("failures")) read_failures(*failures);
+    if (const Node* suspended = fields.find("suspended")) {
+      out_.most_suspended = read_most_of(*suspended, "suspended", shape::suspended);
+    }
     if (const Node* faults = fields.find("faults")) read_faults(*faults);
     const std::size_t errors = reporter_.errors();
     if (const Node* situation = fields.find("situation")) read_changing(*situation);
@@ -59,6 +62,32 @@ class AssumptionReader {
     if (const Node* together = fields.find("together")) read_together(*together);
     if (const Node* never = fields.find("never")) read_never(*never);
     fields.report_unknown(yaml::UnknownKeys::refused);
+  }
+
+  void read_failures(const Node& node) {
+    if (node.kind == Kind::mapping) {
+      out_.most_failed = read_most_of(node, "failures", shape::failures);
+    } else {
+      out_.failures = yaml::read_boolean(node, "failures", reporter_).value_or(out_.failures);
+    }
+  }
+
+  /// "{most: 2}"
+  std::optional<std::uint32_t> read_most_of(const Node& node, std::string_view what,
+                                            const yaml::Shape& form) {
+    if (yaml::read_mapping(node, what, "a mapping with 'most'", reporter_) == nullptr) return {};
+    Fields fields(node, form, reporter_);
+    std::optional<std::uint32_t> number;
+    if (const Node* most = fields.find("most")) {
+      if (const auto read = yaml::read_integer(*most, "most", 0, reporter_)) {
+        number = static_cast<std::uint32_t>(*read);
+      }
+    } else if (!fields.has_unknown()) {
+      reporter_.report(rule::missing_key, node.range,
+                       concat(quote(what), " needs 'most': a number of behaviors or tasks"));
+    }
+    fields.report_unknown(yaml::UnknownKeys::refused);
+    return number;
   }
 
   void read_faults(const Node& node) {
@@ -130,14 +159,18 @@ class AssumptionReader {
     if (node.kind == Kind::mapping) {
       yaml::report_duplicate_keys(node, reporter_);
       for (const auto& [key, value] : node.entries) {
-        const auto task = names_.find_task(*key, "start", reporter_, &node);
+        const auto task = names_.find_requestable(*key, "start", reporter_, &node);
         std::vector<std::int32_t> priorities = read_priorities(key->text, *value);
         if (task) out_.start.push_back({catalog_.task_ids[*task], std::move(priorities)});
       }
     } else if (node.kind == Kind::sequence) {
-      for (const TaskId task : read_tasks(node, "start")) out_.start.push_back({task, {1}});
+      for (const TaskId task : read_tasks(node, "start", &NameIndex::find_requestable)) {
+        out_.start.push_back({task, {1}});
+      }
     } else if (node.text == "all") {
-      for (const TaskId task : catalog_.task_ids) out_.start.push_back({task, {1}});
+      for (const TaskId task : catalog_.task_ids) {
+        if (catalog_.rules_of(task).requestable != 0) out_.start.push_back({task, {1}});
+      }
     } else {
       yaml::report_wrong_type(
           node, "start", "a list of tasks, a mapping of tasks to lists of priorities, or 'all'",
@@ -175,11 +208,12 @@ class AssumptionReader {
               [this](TaskId a, TaskId b) { return place_of(a) < place_of(b); });
   }
 
-  std::vector<TaskId> read_tasks(const Node& list, std::string_view what) {
+  std::vector<TaskId> read_tasks(const Node& list, std::string_view what,
+                                 NameIndex::Find find = &NameIndex::find_task) {
     std::vector<TaskId> tasks;
     ListedNames listed;
     for (const Node* item : list.items) {
-      const auto task = names_.find_task(*item, what, reporter_, &list);
+      const auto task = (names_.*find)(*item, what, reporter_, &list);
       if (task && listed.add(*task, *item, reporter_)) tasks.push_back(catalog_.task_ids[*task]);
     }
     return tasks;

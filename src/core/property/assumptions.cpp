@@ -8,7 +8,8 @@ namespace cbc {
 Assumptions default_assumptions(const CompiledCatalog& catalog) {
   Assumptions assumptions;
   for (const TaskId task : catalog.task_ids) {
-    if (catalog.tasks[task].start_on_request == 0) continue;
+    const bool is_requested = catalog.tasks[task].start_on_request != 0;
+    if (!is_requested || catalog.rules_of(task).requestable == 0) continue;
     assumptions.start.push_back({task, {1}});
     assumptions.stop.push_back(task);
   }

@@ -90,6 +90,12 @@ class ConditionReader {
     read_tasks(node, "running", StateCondition::Kind::running, conditions);
   }
 
+  void read_suspended(const Node& node, const Place& place, Conditions& conditions) {
+    read_tasks(node, place.key, StateCondition::Kind::suspended, conditions);
+  }
+  void read_failed(const Node& node, const Place& place, Conditions& conditions) {
+    read_behaviors(node, place.key, StateCondition::Kind::failed, conditions);
+  }
   void read_stopped(const Node& node, const Place& place, Conditions& conditions) {
     read_tasks(node, place.key, StateCondition::Kind::stopped, conditions);
   }
@@ -201,6 +207,8 @@ class ConditionReader {
                                      {"active", &ConditionReader::read_active},
                                      {"active_includes", &ConditionReader::read_active_includes},
                                      {"requested", &ConditionReader::read_requested},
+                                     {"suspended", &ConditionReader::read_suspended},
+                                     {"failed", &ConditionReader::read_failed},
                                      {"situation", &ConditionReader::read_situation_part},
                                      {"available", &ConditionReader::read_available},
                                      {"faulty", &ConditionReader::read_faulty},

@@ -32,7 +32,10 @@ struct Assumptions {
   std::vector<TaskId> stop;  ///< distinct tasks
   bool successes = true;
   bool failures = true;
-  std::uint32_t faults = 0;  ///< the most behaviors that are faulty at a time
+  /// The most behaviors in X with which a finish may put one more there; nothing: any number.
+  std::optional<std::uint32_t> most_failed;
+  std::optional<std::uint32_t> most_suspended;  ///< the most suspended requests
+  std::uint32_t faults = 0;                     ///< the most behaviors that are faulty at a time
   /// Only these can become faulty, or all but these; see can_become_faulty().
   bool only_listed_fail = false;
   std::vector<BehaviorId> listed_for_faults;

@@ -18,19 +18,22 @@ using yaml::Key;
 using yaml::Shape;
 
 constexpr Key file_keys[] = {{"catalog"}, {"assume"}, {"initially"}, {"properties"}};
-constexpr Key assumption_keys[] = {{"start"},  {"stop"},      {"successes"}, {"failures"},
-                                   {"faults"}, {"situation"}, {"never"},     {"together"}};
+constexpr Key assumption_keys[] = {{"start"},    {"stop"},     {"successes"},
+                                   {"failures"}, {"faults"},   {"situation"},
+                                   {"never"},    {"together"}, {"suspended"}};
+constexpr Key most_keys[] = {{"most"}};
 constexpr Key fault_keys[] = {{"most"}, {"of"}, {"except"}};
 constexpr Key property_keys[] = {{"name"},  {"can_start"}, {"priority"},      {"always"},
                                  {"never"}, {"reachable"}, {"keeps_running"}, {"always_possible"},
                                  {"when"},  {"settled"},   {"after"},         {"until"},
                                  {"by"},    {"within"}};
 constexpr Key condition_keys[] = {{"running"}, {"stopped"},   {"active"},    {"active_includes"},
-                                  {"faulty"},  {"available"}, {"requested"}, {"situation"},
-                                  {"not"},     {"any"},       {"all"}};
+                                  {"faulty"},  {"available"}, {"requested"}, {"suspended"},
+                                  {"failed"},  {"situation"}, {"not"},       {"any"},
+                                  {"all"}};
 
 constexpr const Shape* in_file[] = {&assumptions, &property};
-constexpr const Shape* in_assumptions[] = {&faults};
+constexpr const Shape* in_assumptions[] = {&faults, &failures, &suspended};
 constexpr const Shape* in_property[] = {&condition};
 
 }  // namespace
@@ -38,6 +41,8 @@ constexpr const Shape* in_property[] = {&condition};
 const Shape property_file{"a property file", file_keys, nullptr, in_file};
 const Shape assumptions{"'assume'", assumption_keys, &property_file, in_assumptions};
 const Shape faults{"'faults'", fault_keys, &assumptions};
+const Shape failures{"'failures'", most_keys, &assumptions};
+const Shape suspended{"'suspended'", most_keys, &assumptions};
 const Shape property{"a property", property_keys, &property_file, in_property, true, {}, true};
 const Shape condition{"a condition", condition_keys, &property, {}, false, {}, true};
 
@@ -174,7 +179,9 @@ class PropertyReader {
     const Node& value = *fields.find(key);
     if (property.kind == Property::Kind::can_start ||
         property.kind == Property::Kind::keeps_running) {
-      const auto task = names_.find_task(value, key, reporter_);
+      const auto task = property.kind == Property::Kind::can_start
+                            ? names_.find_requestable(value, key, reporter_)
+                            : names_.find_task(value, key, reporter_);
       if (task) property.task = names_.catalog().task_ids[*task];
     } else {
       const bool is_denied = property.kind == Property::Kind::never;

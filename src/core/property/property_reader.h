@@ -18,6 +18,8 @@ namespace cbc::shape {
 extern const yaml::Shape property_file;
 extern const yaml::Shape assumptions;
 extern const yaml::Shape faults;
+extern const yaml::Shape failures;
+extern const yaml::Shape suspended;
 extern const yaml::Shape property;
 extern const yaml::Shape condition;
 

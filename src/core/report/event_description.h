@@ -56,6 +56,32 @@ inline constexpr auto state_after = group(
                }
              };
            }),
+    optional("suspended", map(text, priority),
+             "After the event: the tasks whose request is suspended, with its priority, in catalog "
+             "order. Only where the catalog has one of the keys requestable, reactive_priority, "
+             "improve, resume, retry and at_most.",
+             [](const Running& of) {
+               const auto write = [&of](const auto& put) {
+                 for (const TaskId id : of.catalog.task_ids) {
+                   if (!of.state.is_suspended(id)) continue;
+                   put(of.catalog.name_of_task(id), of.state.find_own_request(id)->priority);
+                 }
+               };
+               return of.catalog.has_further_keys() ? std::optional(write) : std::nullopt;
+             }),
+    optional("failed", behaviors,
+             "After the event: the behaviors that have failed, and are not tried again at any "
+             "event, in catalog order. Where `suspended` is.",
+             [](const Running& of) {
+               const auto failed = [&of] {
+                 std::vector<BehaviorId> ids;
+                 for (const BehaviorId id : of.catalog.behavior_ids) {
+                   if (of.state.has_failed(id)) ids.push_back(id);
+                 }
+                 return ids;
+               };
+               return of.catalog.has_further_keys() ? std::optional(failed()) : std::nullopt;
+             }),
     member("queue", map(text, nullable(positive_seconds)),
            "After the event: the scheduled reactive tasks, with the times when they are due, in "
            "seconds on the clock; null for a task that is not scheduled, but waits for a change of "
@@ -106,12 +132,15 @@ inline constexpr auto what_happened = group(
     member("time", seconds,
            "Time on the clock of the coordinator, in seconds from 0, exact to the microsecond.",
            &EventRecord::time),
-    member("origin", words(Origin::situation),
+    member("origin", words(Origin::repair),
            "Where the event comes from: the script or the input stream; the clock, as a timeout or "
            "a reactive start; fault: a behavior that a rejected event could not activate again; "
-           "situation: an active behavior that does not fit the situation any more.",
+           "situation: an active behavior that does not fit the situation any more, or a group "
+           "that is reconsidered after it; repair: the latter after a repair.",
            &EventRecord::origin),
-    member("verb", words(Verb::wait), "What the event requests or reports.", &EventRecord::verb),
+    member("verb", words(Verb::reconsider),
+           "What the event requests or reports; reconsider: a group is decided anew.",
+           &EventRecord::verb),
     optional("task", task, "For finish, if a task was given in place of a behavior: the task.",
              [](const EventRecord& of) { return of.verb == Verb::finish ? of.task : none; }),
     optional(
@@ -176,7 +205,8 @@ inline constexpr auto change =
                [](const Change& of, const Decision& in) { return in.record.tasks_of(of); }),
         member("cause", words(ChangeCause::undone),
                "For an activation: requested (its task has a request of priority 1 or higher), "
-               "reactive (a request of priority 0), required (no request). For a deactivation: "
+               "resumed (its request was suspended), reactive (it starts by itself, or has a "
+               "request of priority 0), required (no request). For a deactivation: "
                "requested (a stop event stops its task), replaced (its task continues with another "
                "behavior), displaced (its task had a request), released (its task had none). For "
                "both: restarted (to apply other parameters), undone (rolls back an earlier change "
@@ -193,14 +223,14 @@ inline constexpr auto change =
                &Change::success))
         .related(R"([
       {"if": {"properties": {"op": {"const": "activate"}}},
-       "then": {"properties": {"cause": {"enum": ["requested", "reactive", "required", "restarted", "undone"]}}},
+       "then": {"properties": {"cause": {"enum": ["requested", "resumed", "reactive", "required", "restarted", "undone"]}}},
        "else": {"properties": {"cause": {"enum": ["requested", "replaced", "displaced", "released", "restarted", "undone"]},
          "success": {"const": true}}}},
       {"if": {"properties": {"op": {"const": "activate"},
-         "cause": {"enum": ["requested", "restarted"]}}},
+         "cause": {"enum": ["requested", "resumed", "restarted"]}}},
        "then": {"properties": {"priority": {"type": "integer", "minimum": 1}}}},
       {"if": {"properties": {"cause": {"const": "reactive"}}},
-       "then": {"properties": {"priority": {"const": 0}}}},
+       "then": {"properties": {"priority": {"type": "integer"}}}},
       {"if": {"properties": {"cause": {"const": "displaced"}}},
        "then": {"properties": {"priority": {"type": "integer"}}}},
       {"if": {"properties": {"cause": {"enum": ["required", "released", "undone"]}}},

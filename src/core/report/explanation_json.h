@@ -156,12 +156,20 @@ inline constexpr auto loss = variants(
     variant({Criterion::changes}, "Fewer are better.",
             losses::both(count, [](const Configuration& of,
                                    const Decision&) { return of.objective.changes; })),
-    variant(
-        {Criterion::request_order},
-        "Equally many but different requests: for each side, the strongest request that only "
-        "this side satisfies.",
-        member("chosen", task, "", [](const WhyNot& of) { return of.difference.task; }),
-        member("alternative", task, "", [](const WhyNot& of) { return of.difference.other_task; })),
+    variant({Criterion::request_order},
+            "Equally many but different requests: for each side, the strongest request that only "
+            "this side satisfies; null where that is one that waits, or of a task that started by "
+            "itself, and the other side has none.",
+            member("chosen", task, "", [](const WhyNot& of) { return of.difference.task; }),
+            member("alternative", nullable(task), "",
+                   [](const WhyNot& of) { return of.difference.other_task; })),
+    variant({Criterion::asked},
+            "Where a task runs that started by itself with priority 0: the product of the "
+            "suitabilities of what was asked for, and of what that requires. Higher is better.",
+            losses::both(matching("^(0|1|0\\.[0-9]*[1-9])$"),
+                         [](const Configuration& of, const Decision& /*in*/) {
+                           return exact_product(of.asked.degrees);
+                         })),
     variant({Criterion::suitability},
             "Higher is better. A suitability of 0 outside the group is left out. Decimal numbers "
             "from 0 to 1.",
@@ -270,11 +278,14 @@ inline constexpr auto reason = variants(
         "priority: the task of the event has a stronger request; this is the only reason, found "
         "before any search.",
         reasons::task, member("priority", priority, "Priority of the request.", &Reason::priority)),
-    variant({Reason::Kind::no_behavior, Reason::Kind::on_request, Reason::Kind::stopped},
-            "no_behavior: no behavior performs the task; this is the only reason. on_request: the "
-            "task starts only on request, and has none. stopped: the event stops the task; only in "
-            "`why`.",
-            reasons::task),
+    variant(
+        {Reason::Kind::no_behavior, Reason::Kind::on_request, Reason::Kind::stopped,
+         Reason::Kind::makes_worse},
+        "no_behavior: no behavior performs the task; this is the only reason. on_request: the "
+        "task starts only on request, and has none. stopped: the event stops the task; only in "
+        "`why`. makes_worse: nobody asked for the task, and for it what was asked for would run "
+        "worse; this is the only reason.",
+        reasons::task),
     variant(
         {Reason::Kind::unavailable, Reason::Kind::situation, Reason::Kind::faulty,
          Reason::Kind::finished},
@@ -285,6 +296,24 @@ inline constexpr auto reason = variants(
         reasons::behavior),
     variant({Reason::Kind::exclusive}, "At most one of the two tasks may run.", reasons::both_tasks,
             reasons::catalog_line),
+    variant({Reason::Kind::limited}, "At most so many of the tasks may run.",
+            member("tasks", list(json::task).at_least(2).unique(), "",
+                   [](const Reason& of, const auto& context) {
+                     return context.catalog.limited[of.limit];
+                   }),
+            member("at_most", integer(2), "",
+                   [](const Reason& of, const auto& context) {
+                     return context.catalog.limits[of.limit].most;
+                   }),
+            reasons::catalog_line),
+    variant({Reason::Kind::not_retried},
+            "The behavior failed before, and is not tried again yet; see `retry` in a catalog.",
+            reasons::behavior,
+            member("failed_at", seconds, "When it failed, in seconds on the clock.", &Reason::time),
+            reasons::catalog_line),
+    variant({Reason::Kind::not_improved},
+            "The task gets a more suitable behavior than this one only when it is started.",
+            reasons::task, reasons::behavior, reasons::catalog_line),
     variant({Reason::Kind::requires_task}, "While the behavior performs a task, `task` must run.",
             reasons::behavior, reasons::task, reasons::catalog_line),
     variant(

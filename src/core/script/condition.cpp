@@ -53,6 +53,10 @@ class ConditionWords {
         return {concat("behavior ", behavior(condition), " is faulty")};
       case Kind::none_faulty:
         return {"no behavior is faulty"};
+      case Kind::failed:
+        return {concat("behavior ", behavior(condition), " has failed, and is not tried again")};
+      case Kind::suspended:
+        return {concat("the request of ", task(condition), " is suspended")};
       case Kind::available:
         return {concat("behavior ", behavior(condition), " is available")};
       case Kind::requested:
@@ -149,6 +153,7 @@ Formula ConditionFormula::make(const StateCondition& condition, bool holds) cons
     for (const StateCondition& part : condition.parts) formula.parts.push_back(make(part, holds));
     return formula;
   };
+  const Formula anything = FormulaMaker::join(true);
   switch (condition.kind) {
     case Kind::all:
       return of_parts(holds);
@@ -172,10 +177,23 @@ Formula ConditionFormula::make(const StateCondition& condition, bool holds) cons
     case Kind::none_faulty:
       return FormulaMaker::none_faulty(behaviors(), holds);
     case Kind::available:
+      // What is in X is not available.
+      if (!holds && catalog_.retry_of(condition.behavior) != Retry::at_events) return anything;
       return maker_.available(condition.behavior, holds);
+    case Kind::failed:
+      if (!holds) return anything;
+      return catalog_.retry_of(condition.behavior) == Retry::at_events
+                 ? FormulaMaker::join(false)
+                 : maker_.active(condition.behavior, false);
     case Kind::requested:
-      // A task without such a request may run or not.
-      return holds ? maker_.runs(condition.task, {}, true) : FormulaMaker::join(true);
+      // A task without such a request may run or not; and a request may be suspended.
+      return holds && catalog_.rules_of(condition.task).resume == 0
+                 ? maker_.runs(condition.task, {}, true)
+                 : anything;
+    case Kind::suspended:
+      if (!holds) return anything;
+      return catalog_.rules_of(condition.task).resume == 0 ? FormulaMaker::join(false)
+                                                           : maker_.runs(condition.task, {}, false);
     case Kind::variable:
       return maker_.has_value(condition.variable, condition.values, holds);
     case Kind::own:

@@ -29,8 +29,10 @@ struct StateCondition {
                   ///< explored
     faulty,       ///< the behavior is faulty
     none_faulty,  ///< no behavior of the groups explored is faulty
-    available,    ///< the behavior fits, and own(b) is true
-    requested,    ///< the task has a request with at least this priority
+    failed,       ///< the behavior is in X
+    available,    ///< the behavior fits, own(b) is true, and it is not in X
+    requested,    ///< the task has a request with at least this priority, suspended or not
+    suspended,    ///< the task has a suspended request
     variable,     ///< the situation variable has one of the values
     own           ///< own(b) of the behavior is as wanted
   };
@@ -92,8 +94,8 @@ class ConditionFormula {
   /// Of all groups.
   explicit ConditionFormula(const CompiledCatalog& catalog);
 
-  /// `holds`: of the condition, or else of its negation. That a task is requested means only that
-  /// it runs.
+  /// `holds`: of the condition, or else of its negation. It holds wherever the condition does, and
+  /// perhaps elsewhere: of requests and X only what follows for tasks and situations is said.
   [[nodiscard]] Formula make(const StateCondition& condition, bool holds) const;
   /// No behavior of the groups is active beside those of the parts, or else one is.
   [[nodiscard]] Formula no_other(const StateCondition& only_active, bool holds) const;

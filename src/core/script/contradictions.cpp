@@ -17,7 +17,8 @@ namespace {
 
 bool counts(Ground ground, const Reason& reason) {
   return ground == Ground::catalog ||
-         (ground == Ground::exclusions && reason.kind == Reason::Kind::exclusive);
+         (ground == Ground::exclusions &&
+          (reason.kind == Reason::Kind::exclusive || reason.kind == Reason::Kind::limited));
 }
 
 bool is_possible(std::span<const Contradictions::Part* const> parts, Ground ground,
@@ -58,6 +59,14 @@ std::string describe_without_line(const CompiledCatalog& catalog, const Reason& 
   if (reason.kind == Reason::Kind::exclusive) {
     return task() + " excludes " + quote(catalog.name_of_task(reason.other_task));
   }
+  if (reason.kind == Reason::Kind::limited) {
+    std::vector<std::string> names;
+    for (const TaskId member : catalog.limited[reason.limit]) {
+      names.push_back(quote(catalog.name_of_task(member)));
+    }
+    return concat("at most ", catalog.limits[reason.limit].most, " of ", list_with_and(names),
+                  " run");
+  }
   if (reason.kind == Reason::Kind::situation) {
     std::vector<std::string> values;
     for (const FittingValue& fitting : catalog.fitting_values_of(reason.behavior)) {
@@ -81,7 +90,9 @@ std::string describe_constraint(const CompiledCatalog& catalog, const Reason& re
   const std::string text = describe_without_line(catalog, reason);
   if (reason.line == 0) return text;
   return concat(text, " (", catalog.file, ":", reason.line, ")") +
-         (reason.kind == Reason::Kind::exclusive ? "" : but_nothing_performs(catalog, reason.task));
+         (reason.kind == Reason::Kind::exclusive || reason.kind == Reason::Kind::limited
+              ? ""
+              : but_nothing_performs(catalog, reason.task));
 }
 
 }  // namespace

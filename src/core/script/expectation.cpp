@@ -9,6 +9,7 @@
 #include "core/diagnostic/rules.h"
 #include "core/script/contradictions.h"
 #include "core/yaml/values.h"
+#include "runtime/base/text.h"
 
 namespace cbc {
 
@@ -43,6 +44,8 @@ class ExpectationReader {
       out_.active_includes = read_active(*active, "active_includes", said_.parts);
     }
     check_active_keys(fields, reporter_);
+    if (const Node* tasks = fields.find("suspended")) out_.suspended = read_suspended(*tasks);
+    if (const Node* behaviors = fields.find("failed")) out_.failed = read_failed(*behaviors);
     fields.report_unknown(yaml::UnknownKeys::refused);
     if (reporter_.errors() == errors) check();
     return std::move(out_);
@@ -86,6 +89,44 @@ class ExpectationReader {
       conditions.back().range = item->range;
     }
     return behaviors;
+  }
+
+  std::vector<std::uint32_t> read_suspended(const Node& node) {
+    std::vector<std::uint32_t> tasks;
+    if (yaml::read_list(node, "suspended", "a list of tasks", reporter_) == nullptr) return tasks;
+    const CompiledCatalog& catalog = names_.catalog();
+    for (const Node* item : node.items) {
+      const auto task = names_.find_task(*item, "suspended", reporter_, &node);
+      if (!task) continue;
+      tasks.push_back(*task);
+      if (catalog.rules_of(catalog.task_ids[*task]).resume != 0) continue;
+      report_impossible(item->range, concat("task ", quote(catalog.task_names[*task]),
+                                            " does not resume, so its request never waits"));
+    }
+    return tasks;
+  }
+
+  std::vector<std::uint32_t> read_failed(const Node& node) {
+    std::vector<std::uint32_t> behaviors;
+    if (yaml::read_list(node, "failed", "a list of behaviors", reporter_) == nullptr) {
+      return behaviors;
+    }
+    const CompiledCatalog& catalog = names_.catalog();
+    for (const Node* item : node.items) {
+      const auto behavior = names_.find_behavior(*item, "failed", reporter_, &node);
+      if (!behavior) continue;
+      behaviors.push_back(*behavior);
+      if (catalog.retry_of(catalog.behavior_ids[*behavior]) != Retry::at_events) continue;
+      report_impossible(item->range,
+                        concat("behavior ", quote(catalog.behavior_names[*behavior]),
+                               " is tried again at any event (its 'retry' is at_events)"));
+    }
+    return behaviors;
+  }
+
+  void report_impossible(const Range& range, const std::string& why) {
+    reporter_.report_as(of_impossible, rule::impossible_expectation, range,
+                        "this can never hold: " + why);
   }
 
   void check() {

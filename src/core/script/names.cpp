@@ -54,6 +54,18 @@ std::optional<std::uint32_t> NameIndex::find_task(const yaml::Node& node, std::s
   return found;
 }
 
+std::optional<std::uint32_t> NameIndex::find_requestable(const yaml::Node& node,
+                                                         std::string_view what, Reporter& reporter,
+                                                         const yaml::Node* beside) {
+  const auto task = find_task(node, what, reporter, beside);
+  if (task && catalog_.rules_of(catalog_.task_ids[*task]).requestable == 0) {
+    reporter.report(rule::invalid_value, node.range,
+                    concat("task ", quote(catalog_.task_names[*task]),
+                           " cannot be requested: the catalog says 'requestable: false'"));
+  }
+  return task;
+}
+
 std::optional<std::uint32_t> NameIndex::find_behavior(const yaml::Node& node, std::string_view what,
                                                       Reporter& reporter,
                                                       const yaml::Node* beside) {

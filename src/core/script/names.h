@@ -35,6 +35,13 @@ class NameIndex {
   [[nodiscard]] std::optional<std::uint32_t> find_task(const yaml::Node& node,
                                                        std::string_view what, Reporter& reporter,
                                                        const yaml::Node* beside = nullptr);
+  using Find = std::optional<std::uint32_t> (NameIndex::*)(const yaml::Node&, std::string_view,
+                                                           Reporter&, const yaml::Node*);
+  /// The same of a task that is to be started; reports it if nobody may request it.
+  [[nodiscard]] std::optional<std::uint32_t> find_requestable(const yaml::Node& node,
+                                                              std::string_view what,
+                                                              Reporter& reporter,
+                                                              const yaml::Node* beside = nullptr);
   [[nodiscard]] std::optional<std::uint32_t> find_behavior(const yaml::Node& node,
                                                            std::string_view what,
                                                            Reporter& reporter,

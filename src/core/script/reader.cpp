@@ -31,14 +31,14 @@ constexpr Key script_keys[] = {
     {"catalog"}, {"reactive_delay"}, {"timeouts"}, {"situation"}, {"events"}};
 constexpr auto event_keys = [] {
   constexpr std::string_view others[] = {"expect", "at", "priority", "parameters", "cause"};
-  std::array<Key, verb_forms.size() + std::size(others)> keys{};
+  std::array<Key, scripted_verbs.size() + std::size(others)> keys{};
   std::size_t count = 0;
-  for (const VerbForm& form : verb_forms) keys[count++].name = form.name;
+  for (const VerbForm& form : scripted_verbs) keys[count++].name = form.name;
   for (const std::string_view key : others) keys[count++].name = key;
   return keys;
 }();
-constexpr Key expectation_keys[] = {
-    {"outcome"}, {"running"}, {"stopped"}, {"active"}, {"active_includes"}};
+constexpr Key expectation_keys[] = {{"outcome"},         {"running"},   {"stopped"}, {"active"},
+                                    {"active_includes"}, {"suspended"}, {"failed"}};
 
 constexpr Key finished_task_keys[] = {{"task"}};
 
@@ -65,11 +65,11 @@ constexpr std::string_view expect = "expect";
 /// The keys that say what an entry is: a verb with a subject, or an expectation.
 constexpr auto event_words = [] {
   constexpr auto count = std::count_if(
-      verb_forms.begin(), verb_forms.end(),
+      scripted_verbs.begin(), scripted_verbs.end(),
       [](const VerbForm& form) { return form.subject != VerbForm::SubjectKind::nothing; });
   std::array<std::string_view, count + 1> words;
   std::size_t place = 0;
-  for (const VerbForm& form : verb_forms) {
+  for (const VerbForm& form : scripted_verbs) {
     if (form.subject != VerbForm::SubjectKind::nothing) words[place++] = form.name;
   }
   words[place] = expect;
@@ -88,7 +88,7 @@ constexpr Detail details[] = {{"priority", &VerbForm::has_priority},
 /// "'start' and 'stop'"
 std::string list_verbs(bool VerbForm::*belongs) {
   std::vector<std::string> verbs;
-  for (const VerbForm& form : verb_forms) {
+  for (const VerbForm& form : scripted_verbs) {
     if (form.*belongs) verbs.push_back(quote(form.name));
   }
   return join(verbs, " and ");
@@ -140,7 +140,7 @@ std::string suggest_mapping(const Node& node) {
   if (end == std::string::npos || end + 1 == node.text.size()) return {};
   const std::string_view word = std::string_view(node.text).substr(0, end);
   const std::string_view rest = std::string_view(node.text).substr(end + 1);
-  if (word != "at" && !find_word<Verb>(word)) return {};
+  if (word != "at" && !is_scripted_verb(word)) return {};
   return concat("; write ", quote(concat(word, ": ", rest)));
 }
 
@@ -241,8 +241,10 @@ void StepReader::read_parts(const EventParts& parts, Step& step, Reporter& repor
       step.situation = read_situation(*parts.subject, reporter);
       return;
     case VerbForm::SubjectKind::task:
-      subject = names_.find_task(step.is_by_task ? *parts.task : *parts.subject, parts.subject_key,
-                                 reporter);
+      subject = parts.verb == Verb::start
+                    ? names_.find_requestable(*parts.subject, parts.subject_key, reporter)
+                    : names_.find_task(step.is_by_task ? *parts.task : *parts.subject,
+                                       parts.subject_key, reporter);
       break;
     case VerbForm::SubjectKind::behavior:
       subject = names_.find_behavior(*parts.subject, parts.subject_key, reporter);
@@ -351,7 +353,7 @@ void read_steps(const Node& list, StepReader& reader, Script& script, Reporter& 
 bool is_event(const Node& root) {
   const auto has = [&root](const auto& key) { return root.find(key.name) != nullptr; };
   return std::none_of(std::begin(shape::script_keys), std::end(shape::script_keys), has) &&
-         std::any_of(verb_forms.begin(), verb_forms.end(), has);
+         std::any_of(scripted_verbs.begin(), scripted_verbs.end(), has);
 }
 
 void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter& reporter) {

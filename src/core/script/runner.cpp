@@ -116,6 +116,39 @@ void check_stopped(const std::vector<std::uint32_t>& stopped, const CompiledCata
   mismatches.push_back(std::move(text));
 }
 
+void check_suspended(std::vector<std::uint32_t> expected, const CompiledCatalog& catalog,
+                     const State& state, std::vector<std::string>& mismatches) {
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t task = 0; task < catalog.task_names.size(); ++task) {
+    if (state.is_suspended(catalog.task_ids[task])) found.push_back(task);
+  }
+  std::sort(expected.begin(), expected.end());
+  if (std::includes(found.begin(), found.end(), expected.begin(), expected.end()) &&
+      std::includes(expected.begin(), expected.end(), found.begin(), found.end())) {
+    return;
+  }
+  const auto name = [&](std::uint32_t task) { return quote(catalog.task_names[task]); };
+  const auto names = [&](const std::vector<std::uint32_t>& tasks) {
+    return tasks.empty() ? std::string("no task") : join(tasks, ", ", name);
+  };
+  mismatches.push_back(fmt::format("expected the request of {} to be suspended, but found {}",
+                                   names(expected), names(found)));
+}
+
+void check_failed(std::vector<std::uint32_t> expected, const CompiledCatalog& catalog,
+                  const State& state, std::vector<std::string>& mismatches) {
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t behavior = 0; behavior < catalog.behavior_names.size(); ++behavior) {
+    if (state.has_failed(catalog.behavior_ids[behavior])) found.push_back(behavior);
+  }
+  std::sort(expected.begin(), expected.end());
+  expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+  if (found == expected) return;
+  mismatches.push_back(fmt::format("expected {} to have failed, but found {}",
+                                   names_or_none(catalog, expected),
+                                   names_or_none(catalog, found)));
+}
+
 void check_active(std::vector<std::uint32_t> expected, const CompiledCatalog& catalog,
                   const State& state, std::vector<std::string>& mismatches) {
   std::vector<std::uint32_t> active;
@@ -164,6 +197,8 @@ std::string find_mismatch(const Expectation& expectation, const CompiledCatalog&
     mismatches.push_back(fmt::format("expected behavior {} to be active, but it is not",
                                      quote(catalog.behavior_names[index])));
   }
+  if (expectation.suspended) check_suspended(*expectation.suspended, catalog, state, mismatches);
+  if (expectation.failed) check_failed(*expectation.failed, catalog, state, mismatches);
   return join(mismatches, "; ");
 }
 

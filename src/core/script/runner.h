@@ -54,13 +54,15 @@ class SearchTotals {
     Origin origin = Origin::script;
   };
   /// The kinds of events that may take a search.
-  static constexpr std::array<Kind, 7> kinds{{{Verb::start, Origin::script},
+  static constexpr std::array<Kind, 9> kinds{{{Verb::start, Origin::script},
                                               {Verb::stop, Origin::script},
                                               {Verb::finish, Origin::script},
                                               {Verb::finish, Origin::timeout},
                                               {Verb::finish, Origin::fault},
                                               {Verb::finish, Origin::situation},
-                                              {Verb::start, Origin::reactive}}};
+                                              {Verb::start, Origin::reactive},
+                                              {Verb::reconsider, Origin::situation},
+                                              {Verb::reconsider, Origin::repair}}};
 
   /// Counts an event if it took a search whose time was measured.
   void add(const EventRecord& record);

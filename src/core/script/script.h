@@ -41,6 +41,10 @@ struct Expectation {
   std::vector<std::uint32_t> stopped;                ///< tasks that do not run
   std::optional<std::vector<std::uint32_t>> active;  ///< exactly these behaviors are active
   std::vector<std::uint32_t> active_includes;        ///< these are active, others or not
+  /// Exactly these tasks have a suspended request; exactly these behaviors have failed, and are not
+  /// tried again.
+  std::optional<std::vector<std::uint32_t>> suspended;
+  std::optional<std::vector<std::uint32_t>> failed;
 };
 
 /// What an event changes of the situation.

@@ -94,6 +94,10 @@ constexpr auto running_task = object(
            "The request of the task. Null: it runs only because something requires it.",
            &Snapshot::RunningTask::request));
 
+constexpr auto suspended_request = object(
+    "suspended_request", "", member("task", task, "", &std::pair<TaskId, Request>::first),
+    member("request", request, "The request that waits.", &std::pair<TaskId, Request>::second));
+
 constexpr std::string_view schema_name = "cbc.state/1";
 
 constexpr auto state = object(
@@ -134,6 +138,12 @@ constexpr auto state = object(
     member("queue", map(task, time),
            "The scheduled reactive tasks, in catalog order, with the times when they are due.",
            &Snapshot::queue),
+    optional("failed", if_any(map(behavior, time)),
+             "Behaviors that have failed, and are not tried again at any event, in catalog order, "
+             "and when each failed last.",
+             &Snapshot::failed),
+    optional("suspended", if_any(list(suspended_request)),
+             "The suspended requests, in catalog order of their tasks.", &Snapshot::suspended),
     // States of cbc 0.1 have none.
     optional("waiting", tasks,
              "Reactive tasks whose start had no solution, and that wait for a change of their "

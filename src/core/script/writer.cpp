@@ -56,6 +56,12 @@ std::string expectation_entry(const CompiledCatalog& catalog, const Expectation&
   if (!expectation.active_includes.empty()) {
     parts.push_back("active_includes: [" + join(expectation.active_includes, ", ", behavior) + "]");
   }
+  if (expectation.suspended) {
+    parts.push_back("suspended: [" + join(*expectation.suspended, ", ", task) + "]");
+  }
+  if (expectation.failed) {
+    parts.push_back("failed: [" + join(*expectation.failed, ", ", behavior) + "]");
+  }
   return "expect: {" + join(parts, ", ") + "}";
 }
 

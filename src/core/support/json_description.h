@@ -120,6 +120,16 @@ template <typename Type, typename Projection>
   return {name, type, meaning, projection};
 }
 
+/// A list that an optional member lacks where it is empty.
+template <typename Type>
+struct IfAny : Type {
+  [[nodiscard]] static bool has(const auto& list) { return !list.empty(); }
+};
+template <typename Type>
+[[nodiscard]] constexpr IfAny<Type> if_any(Type type) {
+  return {type};
+}
+
 /// The member that names the schema: cbc.lint/1.
 [[nodiscard]] constexpr auto schema_member(std::string_view name) {
   return member("schema", Constant<std::string_view>{name}, "Name and version of this format.",

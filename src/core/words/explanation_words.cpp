@@ -55,6 +55,13 @@ Figures figures_of(const CompiledCatalog& catalog, GroupId group, const State& s
     return fmt::format("{} of {}", objective.satisfied, objective.requests);
   };
   switch (why_not.difference.criterion) {
+    case Criterion::asked: {
+      auto [ours, theirs] =
+          shorten_both(exact_product(chosen.asked.degrees), exact_product(other.asked.degrees));
+      return {"suitability of what was asked for",
+              "the suitability of what was asked for, before what nobody asked for",
+              std::move(ours), std::move(theirs)};
+    }
     case Criterion::suitability: {
       auto [ours, theirs] =
           shorten_both(exact_suitability(catalog, state, group, chosen.assignment),
@@ -130,6 +137,7 @@ std::string describe_rivalry(const CompiledCatalog& catalog, const ExplainedReco
   const GroupId group = record.search->group;
   const TaskId served = why_not.difference.task;
   const TaskId other = why_not.difference.other_task;
+  if (other == none) return {};
   for (const TaskId needed : needed_tasks(catalog, group, why_not.alternative->assignment, other)) {
     for (const TaskId excluded :
          needed_tasks(catalog, group, record.explanation.chosen.assignment, served)) {
@@ -154,6 +162,10 @@ std::string describe_request(const RankedRequest& request) {
 
 /// Which of the requests of a difference is served, and by what rule.
 std::string describe_order(const CompiledCatalog& catalog, const WhyNot& why_not) {
+  if (why_not.difference.other_task == none) {
+    return why_not.request.priority > 0 ? "its request waits, and comes back as soon as it can"
+                                        : "it goes on where that makes nothing worse";
+  }
   return fmt::format("the request of {} {} goes before that of {} {}{}",
                      task_name(catalog, why_not.difference.task), describe_request(why_not.request),
                      task_name(catalog, why_not.difference.other_task),
@@ -207,6 +219,11 @@ std::string describe_decision(const CompiledCatalog& catalog, const UnexpectedTa
   const Difference& difference = why_not.difference;
   switch (difference.criterion) {
     case Criterion::request_order:
+      if (difference.other_task == none) {
+        return fmt::format("as {} {}; with what is expected, it would not run",
+                           task_name(catalog, difference.task),
+                           why_not.request.priority > 0 ? "comes back" : "goes on");
+      }
       return fmt::format(
           "by the order of requests: {} is served; with what is expected, {} at best, and {}",
           task_name(catalog, difference.task), task_name(catalog, difference.other_task),
@@ -429,8 +446,13 @@ Sentences describe_displacement(const CompiledCatalog& catalog, const ExplainedR
   const bool are_equal = stopped != record.stopped_tasks.end() && record.priority > 0 &&
                          stopped->priority == record.priority;
   if (is_start && are_equal && !displaced.why_not.alternative) {
-    text.first +=
-        fmt::format("; both have priority {}, and the later request goes first", record.priority);
+    const std::string order =
+        fmt::format("both have priority {}, and the later request goes first", record.priority);
+    if (text.more.empty()) {
+      text.first += "; " + order;
+    } else {
+      text.more.push_back(order);
+    }
   }
   return text;
 }
@@ -474,7 +496,8 @@ Sentences describe_why(const CompiledCatalog& catalog, const ExplainedRecord& re
   }
   const std::string subject =
       why.chosen == none
-          ? fmt::format("why {} does not run", name)
+          ? fmt::format("why {} does not run{}", name,
+                        state.is_suspended(why.task) ? ", whose request waits" : "")
           : fmt::format("why {} has {}", name, printable(catalog.name_of_behavior(why.chosen)));
   Sentences text =
       describe_against(catalog, record, subject, condition, why.why_not, tasks, none, state);

@@ -91,12 +91,18 @@ void FailureExplanation::add(const ExplainedRecord& record, const Step* step, co
 
 void FailureExplanation::note_stops(const ExplainedRecord& record, const State& state) {
   std::erase_if(stops_, [&state](const auto& stop) { return state.is_running(stop.first); });
+  for (auto& [task, stop] : stops_) {
+    if (!stop.is_suspended || state.is_suspended(task)) continue;
+    stop.is_suspended = false;
+    stop.ended = place_of(*catalog_, record);
+  }
   for (const StoppedTask& stopped : record.stopped_tasks) {
     Stop& stop = stops_[stopped.task];
     stop = {};
     stop.event = record.index;
     stop.what = place_of(*catalog_, record);
     stop.priority = stopped.priority.value_or(0);
+    stop.is_suspended = state.is_suspended(stopped.task);
     stop.is_own_end = stopped.has_finished ? stopped.cause == FinishCause::goal_achieved
                                            : record.task == stopped.task;
     const auto timeout = timeouts_.find(stopped.task);
@@ -140,7 +146,7 @@ void FailureExplanation::note_changes(const EventRecord& record, const Step* ste
 
 /// Notes when the timeouts of the tasks begin whose behavior an event has decided.
 void FailureExplanation::note_timeouts(const EventRecord& record, const State& state) {
-  if (record.outcome != Outcome::accepted) return;
+  if (record.outcome != Outcome::accepted || record.search == nullptr) return;
   if (state.timeouts().empty()) return timeouts_.clear();
   const GroupId group = record.search->group;
   for (TaskId task = catalog_->group_tasks[group]; task < catalog_->group_tasks[group + 1];
@@ -352,8 +358,11 @@ bool FailureExplanation::tell_stop(TaskId task, std::uint64_t told,
   if (is_told && stop.priority == 0 && stop.timeout.empty()) return false;
   if (stop.event != last_->index || stop.priority > 0 || !stop.timeout.empty()) {
     std::string line = fmt::format("{} stopped with {}", task_name(*catalog_, task), stop.what);
-    if (stop.priority > 0) {
-      line += fmt::format(", and its request (priority {}) ended there", stop.priority);
+    if (stop.is_suspended) {
+      line += fmt::format(", and its request (priority {}) waits", stop.priority);
+    } else if (stop.priority > 0) {
+      line += fmt::format(", and its request (priority {}) ended {}", stop.priority,
+                          stop.ended.empty() ? "there" : "with " + stop.ended);
       // Of the last event of the script another answer was expected, not another event.
       const bool is_answer = stop.event == last_->index && last_->origin == Origin::script &&
                              last_->verb != Verb::finish;

@@ -22,9 +22,9 @@
 namespace cbc {
 
 /// Tells what led to a failed expectation: the event before it; why the last scripted start, stop
-/// or finish was rejected, if it was; when and why tasks stopped that are expected to run, and that
-/// their requests ended with that, or why they wait; what has changed since the decision; and which
-/// timeouts are still to come.
+/// or finish was rejected, if it was; when and why tasks stopped that are expected to run, and
+/// whether their requests ended with that, or why they wait; what has changed since the decision;
+/// and which timeouts are still to come.
 class FailureExplanation {
  public:
   /// Why tasks of one group are not as expected.
@@ -56,6 +56,8 @@ class FailureExplanation {
     std::optional<Sentences> why;  ///< if its request was displaced
     std::string what;              ///< the event
     std::int32_t priority = 0;     ///< of the request that ended; 0: none, or it started by itself
+    bool is_suspended = false;     ///< the request waits
+    std::string ended;             ///< the event that ended a request that waited
     bool is_own_end = false;       ///< it was stopped, or its behavior has achieved its goal
     std::string timeout;           ///< how its timeout ended it, if one did
   };

@@ -62,6 +62,13 @@ std::string describe_protection(const EventRecord& record, const Reason& reason)
                : "runs on request, and a reactive start never stops such a task";
   }
   const std::int32_t level = record.search != nullptr ? record.search->protection : record.priority;
+  if (record.origin == Origin::reactive) {
+    return fmt::format("runs with priority {}, not below that of this reaction, {}",
+                       reason.priority, level);
+  }
+  if (record.verb == Verb::reconsider) {
+    return fmt::format("runs with priority {}, and goes on", reason.priority);
+  }
   if (record.verb == Verb::start || record.verb == Verb::stop) {
     return fmt::format("runs with priority {}, higher than {}", reason.priority, level);
   }
@@ -113,6 +120,8 @@ std::string describe_kind(Reason::Kind kind, const std::string& behavior, const 
       return task + " is protected by its request";
     case Reason::Kind::exclusive:
       return fmt::format("{} excludes {}", task, other_task);
+    case Reason::Kind::limited:
+      return fmt::format("{} is in a list of which only some may run", task);
     case Reason::Kind::on_request:
       return task + " starts only on request, and is not requested";
     case Reason::Kind::requires_task:
@@ -126,6 +135,13 @@ std::string describe_kind(Reason::Kind kind, const std::string& behavior, const 
       return behavior + " does not fit the situation";
     case Reason::Kind::faulty:
       return behavior + " is faulty";
+    case Reason::Kind::not_retried:
+      return behavior + " failed before, and is not tried again";
+    case Reason::Kind::makes_worse:
+      return fmt::format("nobody asked for {}, and for it what was asked for would run worse",
+                         task);
+    case Reason::Kind::not_improved:
+      return fmt::format("{} keeps {} until it is started", task, behavior);
     case Reason::Kind::finished:
       return behavior + " has just ended";
     case Reason::Kind::stopped:
@@ -153,7 +169,24 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
       return text + ": request it first";
     case Reason::Kind::exclusive:
     case Reason::Kind::requires_task:
+    case Reason::Kind::not_improved:
       return text + place(catalog, reason);
+    case Reason::Kind::limited: {
+      std::vector<std::string> names;
+      for (const TaskId member : catalog.limited[reason.limit]) {
+        names.push_back(task_name(catalog, member));
+      }
+      return fmt::format("at most {} of {} run", catalog.limits[reason.limit].most,
+                         list_with_and(names)) +
+             place(catalog, reason);
+    }
+    case Reason::Kind::not_retried:
+      return fmt::format("{} failed at {} s, and is not tried again before {}", behavior,
+                         format_decimal(reason.time, 6),
+                         catalog.retry_of(reason.behavior) == Retry::after_repair
+                             ? "its repair"
+                             : "its repair, or a start that risks nothing that runs") +
+             place(catalog, reason);
     case Reason::Kind::performance:
       return fmt::format("{} requires {} with at least {}",
                          reason.behavior == none ? "the catalog" : behavior, task,
@@ -205,7 +238,8 @@ class Chain {
 
  private:
   static bool leads_on(const Reason& reason) {
-    return reason.behavior != none && reason.task != none;
+    return reason.behavior != none && reason.task != none &&
+           reason.kind != Reason::Kind::not_improved;
   }
 
   [[nodiscard]] bool is_about(const Reason& reason, TaskId task) const {
@@ -214,7 +248,13 @@ class Chain {
       const TaskId other = reason.task == task ? reason.other_task : reason.task;
       return visited_.contains(other) || !reachable_.contains(other);
     }
-    if (reason.behavior == none) return reason.task == task;
+    if (reason.kind == Reason::Kind::limited) {
+      const auto members = catalog_.limited[reason.limit];
+      return std::binary_search(members.begin(), members.end(), task);
+    }
+    if (reason.behavior == none || reason.kind == Reason::Kind::not_improved) {
+      return reason.task == task;
+    }
     return catalog_.can_perform(reason.behavior, task);
   }
 

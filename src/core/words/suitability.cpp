@@ -108,6 +108,10 @@ double product_of(std::span<const Millionths> suitabilities) {
   return multiply(suitabilities).nearest_double();
 }
 
+std::string exact_product(std::span<const Millionths> suitabilities) {
+  return multiply(suitabilities).exact();
+}
+
 std::string percent_of_product(std::span<const Millionths> suitabilities) {
   const std::string digits = multiply(suitabilities).exact();
   if (digits == "1") return "100";

@@ -31,6 +31,9 @@ namespace cbc {
 /// The product of some suitabilities, from 0 to 1, as the nearest double.
 [[nodiscard]] double product_of(std::span<const Millionths> suitabilities);
 
+/// The same, as an exact decimal number.
+[[nodiscard]] std::string exact_product(std::span<const Millionths> suitabilities);
+
 /// The product of some suitabilities, in percent, with up to 4 decimals; the rest is cut off, so
 /// that a number below a limit does not look as if it reached it.
 [[nodiscard]] std::string percent_of_product(std::span<const Millionths> suitabilities);

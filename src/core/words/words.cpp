@@ -232,7 +232,13 @@ std::string describe_assumptions(const CompiledCatalog& catalog, const StatedAss
           : assumptions.successes                       ? "; behaviors succeed, but do not fail"
           : assumptions.failures                        ? "; behaviors fail, but do not succeed"
                                                         : "; behaviors do not finish";
+  if (assumptions.most_failed) {
+    text += fmt::format(", up to {} of them remembered", *assumptions.most_failed);
+  }
   text += describe_faults(catalog, assumptions);
+  if (assumptions.most_suspended) {
+    text += fmt::format("; up to {} suspended", quantity(*assumptions.most_suspended, "request"));
+  }
   const std::size_t variables = catalog.variables.size();
   if (variables > 0) {
     const std::size_t changing = assumptions.variables.size() - assumptions.frozen.size();
@@ -309,7 +315,8 @@ std::string describe_late_fault(const CompiledCatalog& catalog, BehaviorId behav
 
 namespace {
 
-/// Who performs tasks from now on, or goes on with the started one, without a change that says so.
+/// Who performs tasks from now on, or goes on with the started one, without a change that says so;
+/// and whose requests wait from now on, or wait no more.
 std::string describe_taken_over(const CompiledCatalog& catalog, const EventRecord& record,
                                 const State& state) {
   std::vector<std::string> sentences;
@@ -317,6 +324,14 @@ std::string describe_taken_over(const CompiledCatalog& catalog, const EventRecor
     sentences.push_back(fmt::format("{}, which is active already, performs {}",
                                     behavior_name(catalog, state.behavior(task)),
                                     task_name(catalog, task)));
+  }
+  for (const StoppedTask& stopped : record.stopped_tasks) {
+    if (!state.is_suspended(stopped.task)) continue;
+    sentences.push_back(fmt::format("the request of {} waits", task_name(catalog, stopped.task)));
+  }
+  if (record.verb == Verb::stop && record.search == nullptr) {
+    sentences.push_back(
+        fmt::format("the request of {}, which waited, ends", task_name(catalog, record.task)));
   }
   if (record.verb == Verb::start && record.changes.empty() && sentences.empty()) {
     sentences.push_back(fmt::format("{} goes on performing {}",

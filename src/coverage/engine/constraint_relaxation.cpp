@@ -53,6 +53,12 @@ GrowingCatalog copy_given(const CompiledCatalog& from) {
   to.variables = copy(from.variables);
   to.variable_values = copy(from.variable_values);
   to.fitting_values = copy(from.fitting_values);
+  to.task_rules = copy(from.task_rules);
+  to.retries = copy(from.retries);
+  to.improve_lines = copy(from.improve_lines);
+  to.retry_lines = copy(from.retry_lines);
+  to.limits = copy(from.limits);
+  to.limited = copy(from.limited);
   return to;
 }
 
@@ -146,6 +152,7 @@ bool ConstraintRelaxation::load(const EventRecord& record, const Circumstances& 
                                 const Assignment* solution) {
   if (record.search == nullptr || !is_proven(record.search->result.status)) return false;
   solution_ = solution;
+  is_unasked_ = circumstances.trigger.is_unasked();
   ProblemBuilder builder(catalog_, circumstances.state);
   builder.load(circumstances.trigger, record.index);
   for (const BehaviorId behavior : circumstances.failed) builder.exclude(behavior);
@@ -172,11 +179,15 @@ bool ConstraintRelaxation::was_protection_alone() {
 
 bool ConstraintRelaxation::decided(const Goal& goal, std::size_t number) {
   if (!may_matter(goal)) return false;
-  Solver& solver = variant_of(goal, number).solver;
+  Variant& variant = variant_of(goal, number);
   for (const Problem& problem : problems_) {
-    const SearchStatus status = solver.solve(problem, relaxed_).status;
+    const SearchStatus status = variant.solver.solve(problem, relaxed_).status;
     if (status == SearchStatus::infeasible) continue;
     if (status != SearchStatus::optimal) return false;  // nothing is proven
+    if (is_unasked_ &&
+        variant.asked.is_worse(catalog_.group_tasks[problem.group], problem, relaxed_)) {
+      return solution_ != nullptr;
+    }
     return solution_ == nullptr || &problem != &problems_.back() || relaxed_ != *solution_;
   }
   return false;

@@ -47,10 +47,11 @@ class ConstraintRelaxation {
  private:
   struct Variant {
     Variant(CompiledCatalog without, const SearchOptions& options)
-        : catalog(std::move(without)), solver(catalog, options) {}
+        : catalog(std::move(without)), solver(catalog, options), asked(catalog) {}
 
     CompiledCatalog catalog;
     Solver solver;
+    AskedProduct asked;
   };
 
   [[nodiscard]] bool may_run(TaskId task) const;
@@ -67,6 +68,7 @@ class ConstraintRelaxation {
   std::vector<Problem> problems_;  ///< by protection level, up to that of the answer
   std::optional<Problem> unprotected_;
   const Assignment* solution_ = nullptr;
+  bool is_unasked_ = false;  ///< a start that nobody asked for
   Assignment relaxed_;
 };
 

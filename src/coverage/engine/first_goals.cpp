@@ -21,6 +21,8 @@ int importance(Goal::Kind kind) {
     case Goal::Kind::behavior_failed:
     case Goal::Kind::behavior_ceased_to_fit:
     case Goal::Kind::timeout_fired:
+    case Goal::Kind::failure_remembered:
+    case Goal::Kind::improved_at_once:
       return 1;
     case Goal::Kind::higher_displaced:
     case Goal::Kind::lower_rejected:
@@ -28,6 +30,8 @@ int importance(Goal::Kind kind) {
     case Goal::Kind::reactive_started:
     case Goal::Kind::reactive_gave_way:
     case Goal::Kind::reactive_returned:
+    case Goal::Kind::request_suspended:
+    case Goal::Kind::request_resumed:
       return 2;
     default:
       return 3;

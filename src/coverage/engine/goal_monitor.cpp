@@ -42,7 +42,7 @@ void GoalMonitor::note_answer(const Circumstances& circumstances, const Assignme
   behaviors_.clear();
   requests_.clear();
   for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
-    const Request* const request = circumstances.state.find_request(task);
+    const Request* const request = circumstances.state.find_own_request(task);
     behaviors_.push_back(circumstances.state.behavior(task));
     requests_.push_back(request != nullptr ? std::optional(request->priority) : std::nullopt);
   }
@@ -81,8 +81,7 @@ void GoalMonitor::ask_for_deciding(const EventRecord& record, const Circumstance
 
 void GoalMonitor::note_event(const EventRecord& record, const State& state) {
   for (const Change& change : record.changes) {
-    if (change.is_activation && !change.success)
-      notes_.meet(Kind::behavior_failed, change.behavior);
+    if (change.is_activation && !change.success) notes_.note_failure(change.behavior);
   }
   if (record.verb == Verb::situation) note_situation(state);
   if (record.verb == Verb::start && record.origin == Origin::script) {

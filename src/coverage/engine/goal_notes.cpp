@@ -100,8 +100,48 @@ void GoalNotes::note(const DecidedEvent& event) {
   if (trigger.kind != Trigger::Kind::finish || trigger.cause == FinishCause::situation_change) {
     return;
   }
-  const bool is_success = trigger.cause == FinishCause::goal_achieved;
-  meet(is_success ? Kind::behavior_succeeded : Kind::behavior_failed, trigger.behavior);
+  if (trigger.cause == FinishCause::goal_achieved) {
+    meet(Kind::behavior_succeeded, trigger.behavior);
+  } else {
+    note_failure(trigger.behavior);
+  }
+}
+
+void GoalNotes::note_failure(BehaviorId behavior) {
+  meet(Kind::behavior_failed, behavior);
+  if (catalog_.retry_of(behavior) != Retry::at_events) meet(Kind::failure_remembered, behavior);
+}
+
+/// Whether the request of a task begins to wait, or waits no more.
+void GoalNotes::note_request(const DecidedEvent& event, LocalTask place) {
+  const Trigger& trigger = event.trigger;
+  const TaskId task = catalog_.group_tasks[trigger.group] + place;
+  if (catalog_.rules_of(task).resume == 0 || !event.requests[place]) return;
+  const bool was_running = event.behaviors[place] != none;
+  const bool runs = event.solution[place] != none;
+  if (!was_running && runs && task != trigger.task) meet(Kind::request_resumed, task);
+  if (!was_running || runs || trigger.kind == Trigger::Kind::stop) return;
+  const bool has_finished =
+      trigger.kind == Trigger::Kind::finish && event.behaviors[place] == trigger.behavior;
+  if (!has_finished || trigger.cause == FinishCause::situation_change) {
+    meet(Kind::request_suspended, task);
+  }
+}
+
+void GoalNotes::note_improvement(const DecidedEvent& event, LocalTask place) {
+  const TaskId task = catalog_.group_tasks[event.trigger.group] + place;
+  const std::uint32_t index = event.solution[place];
+  if (event.trigger.kind != Trigger::Kind::reconsider || index == none ||
+      catalog_.rules_of(task).improve != Improve::at_once) {
+    return;
+  }
+  const auto values = catalog_.values[task];
+  const auto present = std::find_if(values.begin(), values.end(), [&](const Value& value) {
+    return value.behavior == event.behaviors[place];
+  });
+  if (present != values.end() && values[index].suitability > present->suitability) {
+    meet(Kind::improved_at_once, task);
+  }
 }
 
 void GoalNotes::note_values(const DecidedEvent& event) {
@@ -113,6 +153,8 @@ void GoalNotes::note_values(const DecidedEvent& event) {
     const TaskId task = first + place;
     const BehaviorId old_behavior = event.behaviors[place];
     const std::uint32_t index = event.solution[place];
+    note_request(event, place);
+    note_improvement(event, place);
     const BehaviorId behavior =
         index == none ? BehaviorId(none) : catalog_.values[task][index].behavior;
     if (behavior != none) {
@@ -162,7 +204,7 @@ void GoalNotes::note_start(const DecidedEvent& event) {
   }
   for (LocalTask place(0); place < event.solution.size(); ++place) {
     const std::optional<std::int32_t> request = event.requests[place];
-    if (!request || event.solution[place] != none) continue;
+    if (!request || event.behaviors[place] == none || event.solution[place] != none) continue;
     meet(*request < trigger.priority ? Kind::higher_displaced : Kind::equal_displaced,
          trigger.task);
   }

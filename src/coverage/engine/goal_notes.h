@@ -40,7 +40,8 @@ struct GoalFacts {
 struct DecidedEvent {
   const Trigger& trigger;
   std::span<const BehaviorId> behaviors;  ///< before it, by task of its group; none: does not run
-  std::span<const std::optional<std::int32_t>> requests;  ///< the same: the priority
+  /// The same: the priority, of a suspended request, too.
+  std::span<const std::optional<std::int32_t>> requests;
   const Assignment& solution;
 };
 
@@ -59,6 +60,8 @@ class GoalNotes {
   void note(const DecidedEvent& event);
   /// A value has run into its timeout.
   void note_timeout(ValueId value);
+  /// The behavior has failed, or an activation of it.
+  void note_failure(BehaviorId behavior);
   void meet(Kind kind, std::uint32_t subject);
   void meet(std::uint32_t goal);
   /// The goal of a kind about a task, a behavior, or the place of a requirement or of a value among
@@ -80,6 +83,8 @@ class GoalNotes {
   void note_values(const DecidedEvent& event);
   void note_stop(const DecidedEvent& event, TaskId task);
   void note_start(const DecidedEvent& event);
+  void note_request(const DecidedEvent& event, LocalTask place);
+  void note_improvement(const DecidedEvent& event, LocalTask place);
 
   const CompiledCatalog& catalog_;
   /// By kind and its subject: the goal, or none. See subject_of.

@@ -58,6 +58,20 @@ class ReasonFinder {
         if (assumptions_.faults == 0) return "no behavior fails";
         return fmt::format("no active behavior fails, and no attempt to activate {} does",
                            behavior_name(goal.behavior));
+      case Goal::Kind::failure_remembered:
+        if (!was_active(goal.behavior)) return why_never_active(goal.behavior);
+        return "no behavior fails";
+      case Goal::Kind::improved_at_once:
+        if (!ran(goal.task)) return why_never_ran(goal.task);
+        return fmt::format("nothing better becomes available while task {} runs",
+                           task_name(goal.task));
+      case Goal::Kind::request_suspended:
+        if (!ran(goal.task)) return why_never_ran(goal.task);
+        return fmt::format("only its own stop and the end of its behavior stop task {}",
+                           task_name(goal.task));
+      case Goal::Kind::request_resumed:
+        return fmt::format("the request of {} is never suspended, or what it needs never comes",
+                           task_name(goal.task));
       case Goal::Kind::behavior_replaced:
         return why_never_replaced(goal.behavior);
       case Goal::Kind::requirement_decided:
@@ -329,6 +343,7 @@ Assumptions assumptions_of_goals(const CompiledCatalog& catalog) {
     const CompiledTask& compiled = catalog.tasks[task];
     const bool starts_otherwise = compiled.reactive_start != 0 || !catalog.incoming[task].empty();
     if (compiled.start_on_request == 0 && starts_otherwise) continue;
+    if (catalog.rules_of(task).requestable == 0) continue;
     assumptions.start.push_back({task, {1, 2}});
     assumptions.stop.push_back(task);
   }

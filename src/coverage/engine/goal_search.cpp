@@ -47,7 +47,8 @@ void for_each_note(StatePart& part, Take&& take) {
       const Set set = system.sets().both(part.visited(control), made.condition);
       if (set == Diagrams::empty || !system.may_have(action)) continue;
       part.controls().for_each_result(action, set, [&](Controls::NumberedResult result, Set from) {
-        if (result.note != 0) take({control, from}, result, system.after(made, from));
+        if (result.note != 0)
+          take({control, from}, result, system.after(made, result.values, from));
       });
     }
   }

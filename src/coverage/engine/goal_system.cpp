@@ -57,7 +57,7 @@ void GoalSystem::find_changes() {
     const Action& action = actions_[move.action];
     for (const std::uint32_t behavior : conditional_) {
       const Set fits = environments().fitting(behavior);
-      const Set after = before(action, fits);
+      const Set after = before(action, 0, fits);
       const Fit fit{behavior, sets_.without(after, fits),
                     sets_.without(sets_.both(fits, action.condition), after)};
       if (fit.begins != Diagrams::empty || fit.ceases != Diagrams::empty) {
@@ -86,7 +86,7 @@ ControlSystem::MoveResult GoalSystem::take(std::uint32_t action, SystemOracle& o
       if (!change.is_activation) continue;
       changed_.activated[change.behavior] |= change.success ? 1 : 0;
       if (!change.success) {
-        notes_.meet(Goal::Kind::behavior_failed, model().behaviors()[change.behavior].id);
+        notes_.note_failure(model().behaviors()[change.behavior].id);
       }
     }
   }

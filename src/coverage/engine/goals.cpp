@@ -31,6 +31,8 @@ constexpr std::array<KindOfGoal, Goal::kinds> goal_kinds{{
     {"behavior_failed", GoalSection::behaviors, "behavior {behavior} failed", "{behavior} fails"},
     {"behavior_replaced", GoalSection::behaviors, "behavior {behavior} was replaced",
      "{behavior} is replaced"},
+    {"failure_remembered", GoalSection::behaviors,
+     "behavior {behavior} failed, and was not tried again", "{behavior} is not tried again"},
     {"requirement_used", GoalSection::requirements,
      "{behavior} was active with {task}, which it requires", "{behavior} with {task}"},
     {"requirement_decided", GoalSection::requirements, "it matters that {behavior} requires {task}",
@@ -51,12 +53,17 @@ constexpr std::array<KindOfGoal, Goal::kinds> goal_kinds{{
      "behavior {behavior} began to fit the situation", "{behavior} begins to fit"},
     {"behavior_ceased_to_fit", GoalSection::situation,
      "behavior {behavior} ceased to fit while active", "{behavior} ceases to fit"},
+    {"improved_at_once", GoalSection::situation, "task {task} improved at once",
+     "{task} improves at once"},
     {"higher_displaced", GoalSection::priorities, "a start of {task} displaced a lower priority",
      "{task} displaces lower"},
     {"lower_rejected", GoalSection::priorities,
      "a start of {task} was rejected for a higher priority", "{task} yields to higher"},
     {"equal_displaced", GoalSection::priorities, "a start of {task} displaced an equal priority",
      "{task} displaces equal"},
+    {"request_suspended", GoalSection::priorities, "the request of {task} was suspended",
+     "{task} waits"},
+    {"request_resumed", GoalSection::priorities, "task {task} resumed", "{task} resumes"},
 }};
 // Goals that may be about a task alone.
 constexpr std::string_view sentence_of_minimum = "the minimum of {task} matters";
@@ -138,6 +145,9 @@ class GoalFinder {
     add_behavior(Goal::Kind::behavior_failed, behavior);
     if (performs_any(behavior, [&](TaskId task) { return catalog_.values[task].size() > 1; })) {
       add_behavior(Goal::Kind::behavior_replaced, behavior);
+    }
+    if (catalog_.retry_of(behavior) != Retry::at_events) {
+      add_behavior(Goal::Kind::failure_remembered, behavior);
     }
   }
 
@@ -222,6 +232,14 @@ class GoalFinder {
       add_behavior(Goal::Kind::behavior_began_to_fit, behavior);
       add_behavior(Goal::Kind::behavior_ceased_to_fit, behavior);
     }
+    for (const TaskId task : catalog_.task_ids) {
+      const auto values = catalog_.values[task];
+      const bool may_improve =
+          !values.empty() && values.front().suitability != values.back().suitability;
+      if (may_improve && catalog_.rules_of(task).improve == Improve::at_once) {
+        add_task(Goal::Kind::improved_at_once, task);
+      }
+    }
   }
 
   /// Whether some variable has a value that the behavior does not fit.
@@ -237,6 +255,10 @@ class GoalFinder {
 
   void add_priorities() {
     for (const TaskId task : catalog_.task_ids) {
+      if (catalog_.rules_of(task).resume != 0) {
+        add_task(Goal::Kind::request_suspended, task);
+        add_task(Goal::Kind::request_resumed, task);
+      }
       if (catalog_.tasks[task].start_on_request == 0) continue;
       const auto [any, requested] = find_opponents(task);
       if (any) add_task(Goal::Kind::higher_displaced, task);

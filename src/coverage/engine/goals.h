@@ -21,6 +21,7 @@ struct Goal {
     behavior_succeeded,      ///< behavior
     behavior_failed,         ///< behavior
     behavior_replaced,       ///< behavior
+    failure_remembered,      ///< behavior
     requirement_used,        ///< behavior and the task that it requires
     requirement_decided,     ///< the same
     minimum_decided,         ///< task; of a requirement, also the behavior
@@ -32,11 +33,14 @@ struct Goal {
     variable_value,          ///< variable and value
     behavior_began_to_fit,   ///< behavior
     behavior_ceased_to_fit,  ///< behavior
+    improved_at_once,        ///< task
     higher_displaced,        ///< task, which was started
     lower_rejected,          ///< task, which was to start
-    equal_displaced          ///< task, which was started
+    equal_displaced,         ///< task, which was started
+    request_suspended,       ///< task
+    request_resumed          ///< task
   };
-  static constexpr std::size_t kinds = 19;
+  static constexpr std::size_t kinds = 23;
 
   Kind kind = Kind::task_ran;
   TaskId task = none;

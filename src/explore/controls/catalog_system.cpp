@@ -21,7 +21,8 @@ CatalogSystem::CatalogSystem(const Model& model, const Stepper::Options& options
 
 CatalogSystem::CatalogSystem(const Model& model, const Stepper::Options& options,
                              const std::optional<Mark>& mark, const EnvironmentBits& bits)
-    : ControlSystem(bits.count, groups_of_faults(model), model.assumptions().faults),
+    : ControlSystem(bits.count, groups_of_faults(model), model.assumptions().faults,
+                    !model.has_repairs_that_decide()),
       model_(model),
       side_(model, options, bits, sets_),
       first_(model.packed_words()),
@@ -34,7 +35,9 @@ CatalogSystem::CatalogSystem(const Model& model, const Stepper::Options& options
 void CatalogSystem::add_moves() {
   for (const Model::Choice& choice : model_.moves()) {
     const Move::Kind kind = choice.move.kind;
-    if (kind == Move::Kind::fault || kind == Move::Kind::repair) {
+    const bool is_of_all_faults =
+        kind == Move::Kind::fault || (kind == Move::Kind::repair && faults_.has_repairs());
+    if (is_of_all_faults) {
       moves_.push_back({choice.move, none, model_.behaviors()[choice.subject].fault});
       continue;
     }
@@ -87,6 +90,12 @@ ControlSystem::MoveResult CatalogSystem::take(std::uint32_t action, SystemOracle
   // A start that is no move may lead to what no state is.
   MoveResult result = actions_[action].is_move ? result_after() : MoveResult();
   result.accepted = stepper().was_accepted();
+  if (!actions_[action].is_move) return result;
+  const auto most = model_.assumptions().most_suspended;
+  if (most && stepper().suspended_after() > *most) {
+    result.control = nullptr;
+    result.exists = false;
+  }
   return result;
 }
 
@@ -102,7 +111,10 @@ ControlSystem::MoveResult CatalogSystem::take_repair(std::uint32_t group) {
 
 ControlSystem::MoveResult CatalogSystem::result_after() {
   side_.pack_after(packed_.data());
-  return {packed_.data()};
+  MoveResult result;
+  result.control = packed_.data();
+  result.values = side_.changes_of_x();
+  return result;
 }
 
 // The mark.

@@ -23,10 +23,10 @@ class EffectOracle final : public EnvironmentOracle {
   SystemOracle& oracle_;
 };
 
-/// For moves that ask nothing.
-class NoOracle final : public SystemOracle {
+/// For repairs, which ask only whether they are some.
+class YesOracle final : public SystemOracle {
  public:
-  [[nodiscard]] bool is_in(Diagrams::Set /*set*/) override { return false; }
+  [[nodiscard]] bool is_in(Diagrams::Set /*set*/) override { return true; }
 };
 
 }  // namespace
@@ -45,8 +45,22 @@ void ControlStepper::take_repair(std::uint32_t behavior) {
   Model::Choice repair;
   repair.move.kind = Move::Kind::repair;
   repair.subject = behavior;
-  NoOracle nothing;  // only the queue may change
-  take(repair, {}, nothing);
+  YesOracle yes;  // only the queue may change
+  take(repair, {}, yes);
+}
+
+Diagrams::ValuesNumber ControlStepper::changes_of_x() {
+  const auto& changes = stepper_.changes_of_x();
+  if (changes.empty()) return 0;
+  const auto [entry, is_new] = changes_.try_emplace(changes, 0);
+  if (!is_new) return entry->second;
+  Diagrams::Values values;
+  for (const auto& [failed, is_in] : changes) {
+    const std::uint32_t bit = environments_.bits().failed[failed];
+    if (bit != none) values.bits.emplace_back(bit, is_in);
+  }
+  if (!values.bits.empty()) entry->second = environments_.sets().keep(std::move(values));
+  return entry->second;
 }
 
 void ControlStepper::pack(const std::uint16_t* cells, std::uint32_t* packed) {

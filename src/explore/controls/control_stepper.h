@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "explore/controls/control_system.h"
@@ -31,6 +33,9 @@ class ControlStepper {
   /// What repairs of a behavior do to the control.
   void take_repair(std::uint32_t behavior);
 
+  /// What the move has made of X, besides what its effect is; 0: nothing.
+  [[nodiscard]] Diagrams::ValuesNumber changes_of_x();
+
   /// Writes the control of the first state, and that after the move.
   void pack_first(std::uint32_t* packed) { pack(model_.first_state().data(), packed); }
   void pack_after(std::uint32_t* packed) { pack(stepper_.cells_after(), packed); }
@@ -42,6 +47,7 @@ class ControlStepper {
   Environments environments_;
   Stepper stepper_;
   std::vector<std::uint16_t> cells_;
+  std::map<std::vector<std::pair<std::uint32_t, bool>>, Diagrams::ValuesNumber> changes_;
 };
 
 }  // namespace cbc

@@ -22,10 +22,12 @@ class KnownEnvironment final : public SystemOracle {
 }  // namespace
 
 ControlSystem::ControlSystem(std::uint32_t bits, const std::vector<std::uint32_t>& kinds,
-                             std::uint32_t most_faults)
+                             std::uint32_t most_faults, bool has_repairs)
     : sets_(bits, Diagrams::tail_for(static_cast<std::uint32_t>(kinds.size()), most_faults),
             most_faults),
-      faults_(sets_, kinds, most_faults) {}
+      faults_(sets_, kinds, most_faults, has_repairs) {
+  static_cast<void>(sets_.keep({}));
+}
 
 bool ControlSystem::has(const StateMove& move, const std::vector<std::uint8_t>& environment) {
   if (move.fault == none) {
@@ -37,12 +39,14 @@ bool ControlSystem::has(const StateMove& move, const std::vector<std::uint8_t>& 
   return !is_faulty && static_cast<std::uint32_t>(count) < faults_.most();
 }
 
-void ControlSystem::change(const StateMove& move, std::vector<std::uint8_t>& environment) const {
+void ControlSystem::change(const StateMove& move, Diagrams::ValuesNumber values,
+                           std::vector<std::uint8_t>& environment) const {
   if (move.fault != none) {
     environment[faults_.bit_of(move.fault)] = move.move.kind == Move::Kind::repair ? 0 : 1;
   } else if (const Action& action = actions_[move.action]; action.changes) {
     sets_.change(environment, action.values);
   }
+  if (values != 0) sets_.change(environment, values);
 }
 
 ControlSystem::MoveResult ControlSystem::make(const StateMove& move,

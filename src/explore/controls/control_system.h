@@ -26,7 +26,7 @@ class ControlSystem {
  public:
   using Set = Diagrams::Set;
 
-  /// What can be tried with a control, but for faults and repairs.
+  /// What can be tried with a control, but for what FaultSets do.
   struct Action {
     Set condition = Diagrams::all;  ///< the environments in which it exists
     bool changes = false;           ///< false: the environment stays as it is
@@ -38,13 +38,16 @@ class ControlSystem {
   struct StateMove {
     Move move;
     std::uint32_t action = none;
-    std::uint32_t fault = none;  ///< of a fault or a repair, which are no actions
+    std::uint32_t fault = none;  ///< of a fault or a repair that is no action
   };
   /// What comes of a move.
   struct MoveResult {
     const std::uint32_t* control = nullptr;  ///< valid until the next call; null: it leads nowhere
     bool accepted = false;                   ///< of a start
     std::uint32_t note = 0;                  ///< what the system says of it; 0: nothing
+    /// What it makes of the environment, besides what the action does; 0: nothing.
+    Diagrams::ValuesNumber values = 0;
+    bool exists = true;  ///< false: there is no such move (suspended in `assume`)
   };
 
   virtual ~ControlSystem() = default;
@@ -59,13 +62,17 @@ class ControlSystem {
   /// differ.
   [[nodiscard]] const std::vector<StateMove>& moves() const { return moves_; }
 
-  /// The environments that come of some in which the action exists.
-  [[nodiscard]] Set after(const Action& action, Set set) {
-    return action.changes ? sets_.changed(set, action.values) : set;
+  /// The environments that come of some in which the action exists, and has a result with these
+  /// values.
+  [[nodiscard]] Set after(const Action& action, Diagrams::ValuesNumber values, Set set) {
+    const Set changed = action.changes ? sets_.changed(set, action.values) : set;
+    return values == 0 ? changed : sets_.changed(changed, values);
   }
-  /// The environments that become one of the set, if the action exists in them.
-  [[nodiscard]] Set before(const Action& action, Set set) {
-    const Set reached = action.changes ? sets_.before_change(set, action.values) : set;
+  /// The environments that become one of the set, if the action exists in them, and has a result
+  /// with these values.
+  [[nodiscard]] Set before(const Action& action, Diagrams::ValuesNumber values, Set set) {
+    const Set changed = values == 0 ? set : sets_.before_change(set, values);
+    const Set reached = action.changes ? sets_.before_change(changed, action.values) : changed;
     return sets_.both(reached, action.condition);
   }
 
@@ -91,8 +98,9 @@ class ControlSystem {
 
   /// Whether it has the move.
   [[nodiscard]] bool has(const StateMove& move, const std::vector<std::uint8_t>& environment);
-  /// What the move does to its environment.
-  void change(const StateMove& move, std::vector<std::uint8_t>& environment) const;
+  /// What the move, with a result with these values, does to its environment.
+  void change(const StateMove& move, Diagrams::ValuesNumber values,
+              std::vector<std::uint8_t>& environment) const;
   /// What the move makes of its control.
   [[nodiscard]] MoveResult make(const StateMove& move,
                                 const std::vector<std::uint8_t>& environment);
@@ -110,9 +118,10 @@ class ControlSystem {
   virtual void for_each_kept(const std::function<void(Set)>& keep) const;
 
  protected:
-  /// `bits`: of an environment. `kinds`, `most_faults`: see FaultSets.
+  /// `bits`: of an environment. `kinds` and so on: see FaultSets. The number 0 of values is
+  /// one that nothing has.
   ControlSystem(std::uint32_t bits, const std::vector<std::uint32_t>& kinds,
-                std::uint32_t most_faults);
+                std::uint32_t most_faults, bool has_repairs);
 
   Diagrams sets_;
   FaultSets faults_;

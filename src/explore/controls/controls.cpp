@@ -80,11 +80,12 @@ void Controls::explore(std::uint32_t action, const std::vector<std::uint8_t>& en
 }
 
 Controls::NumberedResult Controls::numbered(const ControlSystem::MoveResult& result) {
-  return {result.control == nullptr ? none : find(result.control), result.accepted, result.note};
+  return {result.control == nullptr ? none : find(result.control), result.accepted, result.note,
+          result.values, result.exists};
 }
 
 Controls::Tree Controls::tree_of(const NumberedResult& result) {
-  if (result.note != 0) {
+  if (result.note != 0 || result.values != 0 || !result.exists) {
     noted_.push_back(result);
     return is_result | is_noted | static_cast<Tree>(noted_.size() - 1);
   }

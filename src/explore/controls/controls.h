@@ -23,6 +23,8 @@ class Controls {
     Number control = none;
     bool accepted = false;
     std::uint32_t note = 0;
+    Diagrams::ValuesNumber values = 0;
+    bool exists = true;
   };
 
   explicit Controls(ControlSystem& system);
@@ -102,7 +104,7 @@ class Controls {
   [[nodiscard]] NumberedResult result_of(Tree tree) const {
     const Tree number = tree & no_control;
     if ((tree & is_noted) != 0) return noted_[number];
-    return {number == no_control ? none : number, (tree & is_accepted) != 0, 0};
+    return {number == no_control ? none : number, (tree & is_accepted) != 0};
   }
   [[nodiscard]] NumberedResult numbered(const ControlSystem::MoveResult& result);
   void explore(std::uint32_t action, const std::vector<std::uint8_t>& environment);

@@ -40,6 +40,7 @@ EnvironmentBits bits_of(const Model& model, bool has_mark) {
     bits.count += added.width;
   }
   while (bits.own.size() < model.layout().own_count) bits.own.push_back(bits.count++);
+  while (bits.failed.size() < model.layout().failed_count) bits.failed.push_back(bits.count++);
   if (has_mark) bits.mark = bits.count++;
   while (bits.fault.size() < model.layout().faulty_count) bits.fault.push_back(bits.count++);
   return bits;
@@ -49,6 +50,7 @@ Environments::Environments(const Model& model, EnvironmentBits bits, Diagrams& s
     : model_(model), bits_(std::move(bits)), sets_(sets), tables_(1) {
   find_conditions();
   find_never();
+  find_room_in_x();
   for (const std::uint32_t bit : bits_.fault) {
     faulty_.push_back(bit == none ? Diagrams::empty : sets_.with(bit, true));
   }
@@ -98,6 +100,12 @@ Environments::Set Environments::faulty(std::uint32_t behavior) const {
   return fault == none ? Diagrams::empty : faulty_[fault];
 }
 
+Environments::Set Environments::failed(std::uint32_t behavior) {
+  const std::uint32_t failed = model_.behaviors()[behavior].failed;
+  const bool may_be = failed != none && bits_.failed[failed] != none;
+  return may_be ? sets_.with(bits_.failed[failed], true) : Diagrams::empty;
+}
+
 void Environments::find_conditions() {
   fitting_.assign(model_.behaviors().size(), Diagrams::all);
   for (std::uint32_t variable = 0; variable < model_.variables().size(); ++variable) {
@@ -110,7 +118,8 @@ void Environments::find_conditions() {
     }
   }
   for (std::uint32_t behavior = 0; behavior < fitting_.size(); ++behavior) {
-    available_.push_back(sets_.without(fitting_[behavior], denied(behavior)));
+    permitted_.push_back(sets_.without(fitting_[behavior], denied(behavior)));
+    available_.push_back(sets_.without(permitted_[behavior], failed(behavior)));
   }
 }
 
@@ -136,6 +145,24 @@ void Environments::find_never() {
   }
 }
 
+/// From the last bit to the first, which keeps each step small.
+void Environments::find_room_in_x() {
+  const auto most = model_.assumptions().most_failed;
+  if (!most) return;
+  std::vector<Set> exactly(*most, Diagrams::empty);
+  if (!exactly.empty()) exactly[0] = Diagrams::all;
+  for (std::size_t place = bits_.failed.size(); place-- > 0;) {
+    if (bits_.failed[place] == none) continue;
+    const Set in_x = sets_.with(bits_.failed[place], true);
+    for (std::size_t count = exactly.size(); count-- > 0;) {
+      const Set one_more = count > 0 ? sets_.both(exactly[count - 1], in_x) : Diagrams::empty;
+      exactly[count] = sets_.either(sets_.without(exactly[count], in_x), one_more);
+    }
+  }
+  room_in_x_ = Diagrams::empty;
+  for (const Set set : exactly) room_in_x_ = sets_.either(room_in_x_, set);
+}
+
 // Moves.
 
 std::vector<Environments::ActionEffect> Environments::effects_of(const Model::Choice& choice) {
@@ -158,10 +185,22 @@ std::vector<Environments::ActionEffect> Environments::effects_of(const Model::Ch
     }
     case Move::Kind::together:
       return {joint_change(choice.move, model_.joint_changes()[subject])};
+    case Move::Kind::repair: {
+      const Model::Behavior& behavior = model_.behaviors()[subject];
+      Diagrams::Values values;
+      if (behavior.failed != none) values.bits.emplace_back(bits_.failed[behavior.failed], false);
+      if (behavior.fault != none) values.bits.emplace_back(bits_.fault[behavior.fault], false);
+      std::erase_if(values.bits, [](const auto& bit) { return bit.first == none; });
+      return {
+          change(choice.move, sets_.either(faulty(subject), failed(subject)), std::move(values))};
+    }
     default: {
       ActionEffect effect;
       effect.move = choice.move;
       if (choice.move.kind == Move::Kind::situation_change) effect.condition = denied(subject);
+      const bool may_join_x =
+          choice.move.kind == Move::Kind::failure && model_.behaviors()[subject].failed != none;
+      if (may_join_x) effect.condition = room_in_x_;
       return {effect};
     }
   }
@@ -228,8 +267,12 @@ Environments::Set Environments::query(const ActionEffect& effect, EnvironmentQue
       return after_to_before(effect, fitting_[subject]);
     case Kind::available:
       return after_to_before(effect, available_[subject]);
+    case Kind::permitted:
+      return after_to_before(effect, permitted_[subject]);
     case Kind::faulty:
-      return faulty(subject);
+      return after_to_before(effect, faulty(subject));
+    case Kind::is_broken:
+      return sets_.either(faulty(subject), failed(subject));
     case Kind::gains:
       return table_of(effect).gains[subject];
   }

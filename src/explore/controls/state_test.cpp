@@ -61,6 +61,13 @@ void StateTest::add(const Model& model, const StateCondition& condition,
       demand(condition.wanted ? sets.complement(denied) : denied, sets);
       break;
     }
+    case Kind::suspended:
+      add([](const Stepper& state, Part part) { return state.is_suspended(part.subject); },
+          model.find_task(condition.task));
+      break;
+    case Kind::failed:
+      demand(environments.failed(model.find_behavior(condition.behavior)), sets);
+      break;
     case Kind::faulty:
       demand(environments.faulty(model.find_behavior(condition.behavior)), sets);
       break;

@@ -18,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include "core/script/runner.h"
 #include "core/script/script.h"
 #include "explore/controls/catalog_system.h"
 #include "explore/model/model.h"
@@ -78,7 +79,7 @@ Timeline follow(CatalogSystem& system, const std::vector<Move>& path) {
     add_point(made != nullptr && move.kind == Move::Kind::due);
     if (made == nullptr) continue;
     const ControlSystem::MoveResult result = system.make(*made, environment);
-    system.change(*made, environment);
+    system.change(*made, result.values, environment);
     control.assign(result.control, result.control + control.size());
     for (std::uint32_t reactive = 0; reactive < layout.reactive_count; ++reactive) {
       if (system.stepper().has_joined(reactive)) joined[reactive] = timeline.is_due.size() - 1;
@@ -237,6 +238,30 @@ Expectation expectation_of(const CatalogSystem& system, const Property* property
   return expectation;
 }
 
+/// Which requests are suspended, and what has failed, at the end of the script, where the property
+/// is about that. The coordinator knows it best.
+void add_memory(const CompiledCatalog& catalog, const Property& property, Script& script) {
+  Expectation& expectation = *script.steps.back().expect;
+  const auto note = [&](const StateCondition& part) {
+    if (part.kind == StateCondition::Kind::suspended) expectation.suspended.emplace();
+    if (part.kind == StateCondition::Kind::failed) expectation.failed.emplace();
+  };
+  for_each_condition(property.condition, note);
+  if (property.when) for_each_condition(*property.when, note);
+  if (!expectation.suspended && !expectation.failed) return;
+  SilentRun silent;
+  Runner runner(catalog, options_of(script), silent);
+  runner.begin(script.situation);
+  for (const Step& step : script.steps) static_cast<void>(runner.take(step));
+  const State& state = runner.coordinator().state();
+  for (std::uint32_t task = 0; expectation.suspended && task < catalog.tasks.size(); ++task) {
+    if (state.is_suspended(catalog.task_ids[task])) expectation.suspended->push_back(task);
+  }
+  for (std::uint32_t one = 0; expectation.failed && one < catalog.behaviors.size(); ++one) {
+    if (state.has_failed(catalog.behavior_ids[one])) expectation.failed->push_back(one);
+  }
+}
+
 Situation situation_of(const CompiledCatalog& catalog, const SituationPart& part) {
   Situation situation;
   situation.variables = part.variables;
@@ -347,6 +372,7 @@ Witness make_witness(const CompiledCatalog& catalog, const std::vector<GroupId>&
   Step& end = script.steps.emplace_back();
   end.time = schedule.times.back();
   end.expect = expectation_of(system, property);
+  if (property != nullptr) add_memory(catalog, *property, script);
   witness.comments.push_back(std::exchange(due, {}));
   witness.text = write_script(catalog, script, comment, witness.comments);
   return witness;

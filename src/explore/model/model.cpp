@@ -39,6 +39,7 @@ Model::Model(const CompiledCatalog& catalog, const std::vector<GroupId>& groups,
   find_interactions();
   add_own_flags(situation);
   add_faults();
+  add_failures();
   lay_out();
   add_never();
   add_moves();
@@ -58,6 +59,10 @@ void Model::add_groups(const std::vector<GroupId>& groups) {
       task.group = static_cast<std::uint32_t>(groups_.size());
       task.start_on_request = compiled.start_on_request != 0;
       task.achieves_goal = compiled.keep_running == 0;
+      const TaskRules rules = catalog_.rules_of(id);
+      task.improve = rules.improve;
+      task.resumes = rules.resume != 0;
+      group.is_reconsidered |= task.resumes || task.improve == Improve::at_once;
       task.values.begin = static_cast<std::uint32_t>(task_of_.size());
       task_of_.resize(task_of_.size() + catalog_.values[id].size(), place);
       task.values.end = static_cast<std::uint32_t>(task_of_.size());
@@ -111,6 +116,7 @@ void Model::add_behaviors(Group& group) {
     Behavior& behavior = behaviors_.emplace_back();
     behavior.id = id;
     behavior.group = static_cast<std::uint32_t>(groups_.size());
+    behavior.retry = catalog_.retry_of(id);
     for (const ValueId value : catalog_.performs[id]) {
       const TaskId task = catalog_.task_of(value);
       const std::uint32_t local = group.tasks.begin + (task - catalog_.group_tasks[group.number]);
@@ -125,18 +131,36 @@ void Model::add_behaviors(Group& group) {
 
 void Model::add_rivals() {
   std::vector<std::uint32_t> last_rival_of(tasks_.size(), none);
+  std::vector<std::uint32_t> numbers(catalog_.limits.size(), none);
   for (std::uint32_t place = 0; place < tasks_.size(); ++place) {
     Task& task = tasks_[place];
     last_rival_of[place] = place;
-    for (const std::uint32_t clique : catalog_.task_cliques[task.id]) {
-      for (const TaskId other : catalog_.cliques[clique]) {
+    const auto add = [&](std::span<const TaskId> list, bool is_alone) {
+      for (const TaskId other : list) {
         const std::uint32_t rival = place + other - task.id;
+        if (is_alone && rival != place && task.reactive != none) task.rivals.push_back(rival);
         if (std::exchange(last_rival_of[rival], place) == place) continue;
-        if (task.reactive != none) task.rivals.push_back(rival);
         if (tasks_[rival].reactive != none) task.reactive_rivals.push_back(tasks_[rival].reactive);
       }
+    };
+    for (const std::uint32_t clique : catalog_.task_cliques[task.id]) {
+      add(catalog_.cliques[clique], true);
+    }
+    for (const std::uint32_t limit : catalog_.limits_of(task.id)) {
+      add(catalog_.limited[limit], false);
+      if (task.reactive == none) continue;
+      if (numbers[limit] == none) {
+        numbers[limit] = static_cast<std::uint32_t>(limits_.size());
+        Limit& added = limits_.emplace_back();
+        added.most = catalog_.limits[limit].most;
+        for (const TaskId other : catalog_.limited[limit]) {
+          added.tasks.push_back(place + other - task.id);
+        }
+      }
+      task.limits.push_back(numbers[limit]);
     }
     std::sort(task.rivals.begin(), task.rivals.end());
+    task.rivals.erase(std::unique(task.rivals.begin(), task.rivals.end()), task.rivals.end());
     std::sort(task.reactive_rivals.begin(), task.reactive_rivals.end());
   }
 }
@@ -156,6 +180,11 @@ void Model::find_interactions() {
       set_bit(needs[task].data(), task);
       for (const std::uint32_t clique : catalog_.task_cliques[id]) {
         for (const TaskId rival : catalog_.cliques[clique]) {
+          if (rival != id) set_bit(rivals[task].data(), task + rival - id);
+        }
+      }
+      for (const std::uint32_t limit : catalog_.limits_of(id)) {
+        for (const TaskId rival : catalog_.limited[limit]) {
           if (rival != id) set_bit(rivals[task].data(), task + rival - id);
         }
       }
@@ -258,12 +287,33 @@ void Model::add_faults() {
   }
 }
 
+void Model::add_failures() {
+  for (Behavior& behavior : behaviors_) {
+    const bool can_fail = assumptions_.failures || behavior.fault != none;
+    if (can_fail && behavior.retry != Retry::at_events) behavior.failed = layout_.failed_count++;
+  }
+}
+
+bool Model::has_repairs_that_decide() const {
+  return layout_.failed_count > 0 ||
+         (layout_.faulty_count > 0 &&
+          std::any_of(groups_.begin(), groups_.end(),
+                      [](const Group& group) { return group.is_reconsidered; }));
+}
+
 void Model::rank_priorities() {
   std::set<std::int32_t> priorities{0};
   for (const Assumptions::Start& start : assumptions_.start) {
     priorities.insert(start.priorities.begin(), start.priorities.end());
   }
+  const auto priority_of = [this](const Task& task) {
+    return catalog_.rules_of(task.id).reactive_priority;
+  };
+  for (const std::uint32_t task : reactive_) priorities.insert(priority_of(tasks_[task]));
   priorities_.assign(priorities.begin(), priorities.end());
+  for (const std::uint32_t task : reactive_) {
+    tasks_[task].reactive_rank = rank_of(priority_of(tasks_[task]));
+  }
 }
 
 Model::Rank Model::ranks_up_to(std::int32_t priority) const {
@@ -297,7 +347,8 @@ std::uint32_t Model::find_variable(std::uint32_t variable) const {
   return static_cast<std::uint32_t>(found - variables_.begin());
 }
 
-/// A bound on the requests at one time: of the tasks that an exclusivity list names, one runs.
+/// A bound on the requests at one time: of the tasks that an exclusivity list names, one runs. What
+/// resumes may have one beside it.
 std::uint32_t Model::most_requests() const {
   std::set<TaskId> left;
   for (const Assumptions::Start& start : assumptions_.start) {
@@ -320,8 +371,10 @@ std::uint32_t Model::most_requests() const {
       }
     }
     left.erase(task);
-    if (best == none) continue;
-    for (const TaskId member : catalog_.cliques[best]) left.erase(member);
+    if (best == none || catalog_.rules_of(task).resume != 0) continue;
+    for (const TaskId member : catalog_.cliques[best]) {
+      if (catalog_.rules_of(member).resume == 0) left.erase(member);
+    }
   }
   return count;
 }
@@ -449,7 +502,8 @@ void Model::add_moves() {
   }
   for (const Move::Kind kind : {Move::Kind::fault, Move::Kind::repair}) {
     for (const std::uint32_t behavior : behaviors_in_order_) {
-      if (behaviors_[behavior].fault == none) continue;
+      const bool has_failed = kind == Move::Kind::repair && behaviors_[behavior].failed != none;
+      if (behaviors_[behavior].fault == none && !has_failed) continue;
       moves_.push_back({{kind, index_of_behavior(behavior), 0}, behavior, 0});
     }
   }

@@ -13,6 +13,7 @@
 #include "explore/model/state_situation.h"
 #include "explore/sets/bit_sets.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "runtime/compiled/task_rules.h"
 
 namespace cbc {
 
@@ -72,11 +73,20 @@ class Model {
     BitRange values;
     bool start_on_request = true;
     bool achieves_goal = false;
+    Improve improve = Improve::at_events;
+    bool resumes = false;
     std::uint32_t reactive = none;  ///< its number among the reactive tasks
-    /// Other tasks that share an exclusivity list with it. Of a reactive task only, since a list
-    /// of many tasks has very many pairs.
+    Rank reactive_rank = 0;         ///< of its reactive start
+    /// Other tasks of which one at most may run where it runs. Of a reactive task only, since a
+    /// list of many tasks has very many pairs.
     std::vector<std::uint32_t> rivals;
-    std::vector<std::uint32_t> reactive_rivals;  ///< numbers among the reactive tasks
+    std::vector<std::uint32_t> limits;           ///< places in limits(); of a reactive task only
+    std::vector<std::uint32_t> reactive_rivals;  ///< of both; numbers among the reactive tasks
+  };
+  /// An exclusivity list of which several may run.
+  struct Limit {
+    std::vector<std::uint32_t> tasks;
+    std::uint32_t most = 0;
   };
   struct Group {
     GroupId number;  ///< in the catalog
@@ -85,6 +95,7 @@ class Model {
     BitRange behaviors;
     std::vector<std::uint32_t> reactive;  ///< its reactive tasks, by their numbers
     bool has_faults = false;              ///< a behavior of it can become faulty
+    bool is_reconsidered = false;         ///< a task of it improves at once, or resumes
   };
   struct Behavior {
     BehaviorId id;
@@ -92,6 +103,9 @@ class Model {
     std::vector<std::uint32_t> values;
     std::uint32_t own = none;    ///< its number among the own flags
     std::uint32_t fault = none;  ///< its number among those that can become faulty
+    Retry retry = Retry::at_events;
+    /// Its number among those whose failure is remembered, and that can fail; these may be in X.
+    std::uint32_t failed = none;
   };
   /// A behavior whose own(b) is part of the state, as it may change: one of the groups, or another
   /// one that `never` ties to something in the state.
@@ -119,8 +133,9 @@ class Model {
   };
 
   /// A state consists of cells. Their order: values of tasks (value index + 1, 0: not running);
-  /// requests, the most important first (task + 1), and their ranks; places in the queue of the
-  /// reactive tasks (set + 1); whether they wait; variables; own(b) denied; faulty.
+  /// requests, suspended ones too, the most important first (task + 1), and their ranks; places in
+  /// the queue of the reactive tasks (set + 1); whether they wait; variables; own(b) denied;
+  /// faulty. Whether a behavior is in X has no cell: it is part of the environment only.
   struct Layout {
     std::uint32_t requests = 0;
     std::uint32_t request_count = 0;  ///< the most requests at a time
@@ -133,6 +148,7 @@ class Model {
     std::uint32_t own_count = 0;
     std::uint32_t faulty = 0;
     std::uint32_t faulty_count = 0;  ///< behaviors that can become faulty
+    std::uint32_t failed_count = 0;  ///< behaviors that may be in X
     std::uint32_t cells = 0;
   };
   /// Where a cell stands in a packed state.
@@ -156,6 +172,9 @@ class Model {
   [[nodiscard]] const std::vector<Variable>& variables() const { return variables_; }
   [[nodiscard]] const std::vector<OwnFlag>& own_flags() const { return own_flags_; }
   [[nodiscard]] const std::vector<JointChange>& joint_changes() const { return joint_changes_; }
+  [[nodiscard]] const std::vector<Limit>& limits() const { return limits_; }
+  /// Whether a repair may do more than to put reactive tasks into the queue.
+  [[nodiscard]] bool has_repairs_that_decide() const;
   /// By value of a task: the task, the behavior.
   [[nodiscard]] std::uint32_t task_of(std::uint32_t value) const { return task_of_[value]; }
   [[nodiscard]] std::uint32_t behavior_of(std::uint32_t value) const { return behavior_of_[value]; }
@@ -227,6 +246,7 @@ class Model {
   [[nodiscard]] bool add_variables(const StateSituation& situation);
   void add_own_flags(const StateSituation& situation);
   void add_faults();
+  void add_failures();
   void rank_priorities();
   void lay_out();
   void add_moves();
@@ -243,6 +263,7 @@ class Model {
   std::vector<Variable> variables_;
   std::vector<OwnFlag> own_flags_;
   std::vector<JointChange> joint_changes_;
+  std::vector<Limit> limits_;
   std::vector<std::uint32_t> task_of_;
   std::vector<std::uint32_t> behavior_of_;
   std::vector<std::uint32_t> reactive_;

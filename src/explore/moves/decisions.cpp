@@ -11,6 +11,8 @@ namespace {
 constexpr std::uint64_t number_bits = 32;
 constexpr std::uint64_t number_mask = (std::uint64_t{1} << number_bits) - 1;
 constexpr std::size_t requests_in_word = 4;
+/// What a key has before the requests: how they count, and how many there are of which kind.
+constexpr std::size_t before_requests = 3;
 
 }  // namespace
 
@@ -20,10 +22,12 @@ Decisions::Decisions(const Model& model, const CompiledCatalog& catalog, std::si
       most_bytes_(most_bytes),
       listener_(std::move(listener)),
       solver_(catalog, SearchOptions{}),
+      asked_(catalog),
       value_words_(words_for(model.value_count())),
       task_words_(words_for(model.tasks().size())),
       key_words_(1 + 2 * value_words_ + task_words_ +
-                 (model.layout().request_count + 2 + requests_in_word - 1) / requests_in_word),
+                 (model.layout().request_count + 1 + before_requests + requests_in_word - 1) /
+                     requests_in_word),
       entry_words_(key_words_ + 1 + value_words_),
       key_(key_words_),
       slots_(1024, 0) {}
@@ -47,8 +51,9 @@ const Word* Decisions::find(const GroupQuestion& question) {
   }
   ++computed_;
   load_problem(question);
-  const bool is_solved = has_solution(solver_.solve(problem_, solution_).status);
+  bool is_solved = has_solution(solver_.solve(problem_, solution_).status);
   if (listener_) listener_(problem_, is_solved ? &solution_ : nullptr);
+  if (is_solved && question.must_not_make_worse) is_solved = !makes_worse();
   if (is_new) {
     if (!is_solved) return answer_of(remember(infeasible));
     if (satisfies_all(question)) return answer_of(remember(solved));
@@ -56,6 +61,15 @@ const Word* Decisions::find(const GroupQuestion& question) {
     write_key(question, true);
   }
   return answer_of(remember(is_solved ? solved : infeasible));
+}
+
+/// The best solution of more choices has the best product, too, so where it is worse, it is with
+/// fewer.
+bool Decisions::makes_worse() {
+  const TaskId first = model_.catalog().group_tasks[problem_.group];
+  const auto asked = problem_.asked_requests();
+  present_asked_ = asked_.of(first, problem_.present, asked);
+  return asked_.compare(asked_.of(first, solution_, asked), present_asked_) > 0;
 }
 
 bool Decisions::satisfies_all(const GroupQuestion& question) const {
@@ -106,29 +120,40 @@ void Decisions::write_key(const GroupQuestion& question, bool is_ordered) {
   next = std::copy_n(question.must_run, task_words_, next);
   std::fill(next, key_.data() + key_words_, 0);
   sorted_.assign(question.requests.begin(), question.requests.end());
-  if (is_ordered) {
-    sort_by_class();
-  } else {
-    std::sort(sorted_.begin(), sorted_.end());
+  std::uint16_t* const end = sorted_.data() + sorted_.size();
+  std::uint16_t* const unasked = end - question.unasked;
+  std::uint16_t* const suspended = unasked - question.suspended;
+  std::uint16_t* begin = sorted_.data();
+  for (std::uint16_t* const part : {suspended, unasked, end}) {
+    if (is_ordered) {
+      sort_by_class(begin, part);
+    } else {
+      std::sort(begin, part);
+    }
+    begin = part;
   }
-  std::size_t place = is_ordered ? 1 : 0;  // so that no key is both
-  for (const std::uint16_t task : sorted_) {
-    next[place / requests_in_word] |= Word{task + 1U} << (place % requests_in_word * 16);
+  std::size_t place = 0;
+  const auto put = [&](std::uint32_t number) {
+    next[place / requests_in_word] |= Word{number} << (place % requests_in_word * 16);
     ++place;
-  }
+  };
+  put((is_ordered ? 1U : 0U) + (question.must_not_make_worse ? 2U : 0U));
+  put(question.suspended);
+  put(question.unasked);
+  for (const std::uint16_t task : sorted_) put(task + 1U);
 }
 
 /// Keeps the order of the requests of each interaction class only. An insertion sort: there are
 /// few.
-void Decisions::sort_by_class() {
+void Decisions::sort_by_class(std::uint16_t* begin, std::uint16_t* end) const {
   const auto& classes = model_.interaction_classes();
   // A property may ask for a start that no move makes.
   const auto has_none = [&](std::uint16_t task) { return classes[task] == none; };
   if (std::any_of(sorted_.begin(), sorted_.end(), has_none)) return;
-  for (std::size_t end = 1; end < sorted_.size(); ++end) {
-    for (std::size_t place = end;
-         place > 0 && classes[sorted_[place]] < classes[sorted_[place - 1]]; --place) {
-      std::swap(sorted_[place], sorted_[place - 1]);
+  for (std::uint16_t* next = begin; next != end; ++next) {
+    for (std::uint16_t* task = next; task != begin && classes[*task] < classes[*(task - 1)];
+         --task) {
+      std::swap(*task, *(task - 1));
     }
   }
 }
@@ -192,6 +217,8 @@ void Decisions::load_problem(const GroupQuestion& question) {
   for (const std::uint16_t task : question.requests) {
     problem_.requests.emplace_back(task - group.tasks.begin);
   }
+  problem_.suspended = question.suspended;
+  problem_.unasked = question.unasked;
 }
 
 }  // namespace cbc

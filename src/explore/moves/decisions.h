@@ -9,6 +9,7 @@
 
 #include "explore/model/model.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "runtime/solver/objective.h"
 #include "runtime/solver/problem.h"
 #include "runtime/solver/solver.h"
 
@@ -22,7 +23,11 @@ struct GroupQuestion {
   const Word* domains = nullptr;            ///< values
   const Word* must_run = nullptr;           ///< tasks that may not stop
   const Word* present = nullptr;            ///< values
-  std::span<const std::uint16_t> requests;  ///< tasks, the most important one first
+  std::span<const std::uint16_t> requests;  ///< tasks, as in Problem
+  std::uint32_t suspended = 0;              ///< as in Problem
+  std::uint32_t unasked = 0;                ///< as in Problem
+  /// Whether a solution with which what was asked for runs worse than now is none.
+  bool must_not_make_worse = false;
 };
 
 /// Told of each question that the solver was asked, and of its answer; null: there is none.
@@ -57,13 +62,14 @@ class Decisions {
   enum Memory : Word { infeasible, solved, ordered };
 
   void write_key(const GroupQuestion& question, bool is_ordered);
-  void sort_by_class();
+  void sort_by_class(std::uint16_t* begin, std::uint16_t* end) const;
   [[nodiscard]] std::uint64_t hash() const;
   /// The entry of the key, or null; and the slot where it is or belongs.
   [[nodiscard]] const Word* look_up(std::uint64_t hash, std::size_t& slot) const;
   const Word* remember(Memory memory);
   [[nodiscard]] bool satisfies_all(const GroupQuestion& question) const;
   void load_problem(const GroupQuestion& question);
+  [[nodiscard]] bool makes_worse();
   void grow();
   void forget();
 
@@ -71,6 +77,8 @@ class Decisions {
   const std::size_t most_bytes_;
   const DecisionListener listener_;
   Solver solver_;
+  AskedProduct asked_;
+  AskedProduct::Factors present_asked_;
   Problem problem_;
   Assignment solution_;
   std::size_t value_words_;

@@ -18,7 +18,10 @@ namespace cbc {
 Stepper::Stepper(const Model& model, const Options& options)
     : model_(model),
       reduce_(options.reduce),
-      decisions_(model, options.decision_bytes, options.on_decision) {
+      decisions_(model, options.decision_bytes, options.on_decision),
+      in_x_(model.layout().failed_count, InX::as_before),
+      needs_(model.catalog()),
+      needs_of_others_(model.catalog()) {
   const std::size_t values = words_for(model.value_count());
   const std::size_t tasks = words_for(model.tasks().size());
   const std::size_t behaviors = words_for(model.behaviors().size());
@@ -46,6 +49,16 @@ Stepper::Stepper(const Model& model, const Options& options)
     std::stable_sort(order.begin(), order.end(),
                      [&](auto a, auto b) { return level(a) > level(b); });
   }
+  // Those of a higher priority first, then those that are earlier in the catalog.
+  for (const std::uint32_t task : model.tasks_in_order()) {
+    const std::uint32_t reactive = model.tasks()[task].reactive;
+    if (reactive != none) order_of_reactions_.push_back(reactive);
+  }
+  const auto rank = [&](std::uint32_t reactive) {
+    return model.tasks()[model.reactive()[reactive]].reactive_rank;
+  };
+  std::stable_sort(order_of_reactions_.begin(), order_of_reactions_.end(),
+                   [&](auto a, auto b) { return rank(a) > rank(b); });
 }
 
 // The state.
@@ -130,7 +143,7 @@ bool Stepper::may_have(const Model::Choice& choice) const {
     case Move::Kind::start:
       return true;
     case Move::Kind::stop:
-      return before_.cells[subject] != 0 && request_of(subject) > 0;
+      return request_of(subject) > 0;
     case Move::Kind::success: {
       if (!is_active) return false;
       const auto& values = model_.behaviors()[subject].values;
@@ -155,7 +168,9 @@ void Stepper::take(const Model::Choice& choice, const Possible& possible,
   now_.possible = possible;
   accepted_ = false;
   environment_ = &environment;
+  std::fill(in_x_.begin(), in_x_.end(), InX::as_before);
   make(choice);
+  note_changes_of_x();
   environment_ = nullptr;
 }
 
@@ -183,10 +198,12 @@ void Stepper::make(const Model::Choice& choice) {
     case Move::Kind::fault:
       break;
     case Move::Kind::repair:
+      if (!is_confirmed(EnvironmentQuery::Kind::is_broken, subject)) break;
       for (const std::uint32_t reactive :
            model_.groups()[model_.behaviors()[subject].group].reactive) {
         enqueue(reactive);
       }
+      reconsider(model_.behaviors()[subject].group, Origin::repair);
       break;
     case Move::Kind::variable:
     case Move::Kind::own:
@@ -205,6 +222,7 @@ void Stepper::make(const Model::Choice& choice) {
 void Stepper::stay() {
   now_ = before_;
   joined_set_ = 0;
+  changes_of_x_.clear();
 }
 
 // Events.
@@ -223,7 +241,9 @@ bool Stepper::start(std::uint32_t task, Model::Rank ranks, Model::Rank rank, boo
   trigger.ranks = ranks;
   trigger.rank = rank;
   trigger.is_reactive = is_reactive;
+  if (!is_reactive) forgive(task);
   const bool accepted = coordinate(trigger);
+  end_forgiving();
   finish_lost();
   return accepted;
 }
@@ -231,7 +251,12 @@ bool Stepper::start(std::uint32_t task, Model::Rank ranks, Model::Rank rank, boo
 /// The stop has the priority of the task's request, 0 if it has none.
 bool Stepper::stop(std::uint32_t task) {
   open_event(Verb::stop, Origin::script, task);
-  if (now_.cells[task] == 0) return false;
+  if (now_.cells[task] == 0) {
+    if (rank_in(now_, task) == 0) return false;
+    end_suspended_request(task);
+    note_outcome(Outcome::accepted);
+    return true;
+  }
   Trigger trigger;
   trigger.kind = Trigger::Kind::stop;
   trigger.group = model_.tasks()[task].group;
@@ -250,7 +275,21 @@ void Stepper::finish(std::uint32_t behavior, FinishCause cause, Origin origin) {
   trigger.group = model_.behaviors()[behavior].group;
   trigger.behavior = behavior;
   trigger.cause = cause;
+  if (cause == FinishCause::process_failure) note_failure(behavior);
   accepted_ = coordinate(trigger);
+}
+
+/// Decides a group anew if a task of it may improve at once, or waits to be resumed.
+void Stepper::reconsider(std::uint32_t group, Origin origin) {
+  if (!has_reason_to_reconsider(group)) return;
+  open_event(Verb::reconsider, origin, none);
+  Trigger trigger;
+  trigger.kind = Trigger::Kind::reconsider;
+  trigger.group = group;
+  trigger.ranks = 1;
+  const bool accepted = coordinate(trigger);
+  if (!accepted && !has_excluded_ && trace_ != nullptr) trace_->events.pop_back();
+  finish_lost();
 }
 
 /// Behaviors that a rollback could not activate again finish right after the rejected event.
@@ -271,7 +310,7 @@ void Stepper::start_reactive(std::uint32_t reactive) {
   std::uint16_t& waits = now_.cells[layout.waiting + reactive];
   const BitRange values = model_.tasks()[task].values;
   bool may_start = false;
-  if (!has_bit(now_.running.data(), task) && !excludes_running_task(task)) {
+  if (!has_bit(now_.running.data(), task) && !is_blocked(task)) {
     for (std::uint32_t value = values.begin; value < values.end && !may_start; ++value) {
       may_start = has_bit(now_.possible.available_values.data(), value) &&
                   is_available_now(model_.behavior_of(value));
@@ -283,8 +322,9 @@ void Stepper::start_reactive(std::uint32_t reactive) {
   }
   const bool waited = waits != 0;
   const std::size_t events = trace_ != nullptr ? trace_->events.size() : 0;
-  // Whatever has a request is protected; see find_domains.
-  const bool accepted = start(task, 1, 0, true);
+  // What has a request as high is protected; see ask().
+  const Model::Rank rank = model_.tasks()[task].reactive_rank;
+  const bool accepted = start(task, static_cast<Model::Rank>(rank + 1), rank, true);
   // An attempt that changes nothing is silent if the task waited before.
   if (!accepted && waited && trace_ != nullptr && trace_->events.size() == events + 1 &&
       trace_->events.back().changes.empty()) {
@@ -306,6 +346,9 @@ void Stepper::adapt() {
     if (!has_bit(now_.active.data(), behavior) || fits(behavior)) continue;
     finish(behavior, FinishCause::situation_change, Origin::situation);
   }
+  for (std::uint32_t group = 0; group < model_.groups().size(); ++group) {
+    if (has_reason_to_reconsider(group) && gains(group)) reconsider(group, Origin::situation);
+  }
 }
 
 // The environment.
@@ -319,7 +362,14 @@ bool Stepper::fits(std::uint32_t behavior) {
 
 bool Stepper::is_available_now(std::uint32_t behavior) {
   if (!has_bit(now_.possible.available.data(), behavior)) return false;
-  if (is_confirmed(EnvironmentQuery::Kind::available, behavior)) return true;
+  const std::uint32_t failed = model_.behaviors()[behavior].failed;
+  const bool is_out_of_x =
+      failed != none && (in_x_[failed] == InX::no || in_x_[failed] == InX::forgiven);
+  if (is_confirmed(
+          is_out_of_x ? EnvironmentQuery::Kind::permitted : EnvironmentQuery::Kind::available,
+          behavior)) {
+    return true;
+  }
   now_.possible.remove_available(model_, behavior);
   return false;
 }
@@ -338,15 +388,118 @@ bool Stepper::gains(std::uint32_t group) const {
   return environment_->holds({EnvironmentQuery::Kind::gains, group});
 }
 
-/// The first set of the queue: its tasks one after the other in catalog order, as far as they are
-/// still in it by then.
+/// The first set of the queue: its tasks one after the other, as far as they are still in it by
+/// then.
 void Stepper::come_due() {
-  for (const std::uint32_t task : model_.tasks_in_order()) {
-    const std::uint32_t reactive = model_.tasks()[task].reactive;
-    if (reactive == none || now_.cells[model_.layout().queue + reactive] != 1) continue;
+  for (const std::uint32_t reactive : order_of_reactions_) {
+    if (now_.cells[model_.layout().queue + reactive] != 1) continue;
     close_event();  // before this one leaves the queue, perhaps silently
     start_reactive(reactive);
   }
+}
+
+// Failures that are remembered.
+
+/// The behavior joins X, unless it is tried again at any event.
+void Stepper::note_failure(std::uint32_t behavior) {
+  const std::uint32_t failed = model_.behaviors()[behavior].failed;
+  if (failed == none) return;
+  in_x_[failed] = InX::yes;
+  now_.possible.remove_available(model_, behavior);
+}
+
+/// See Coordinator::forgive(). Whether they were in X need not be known.
+void Stepper::forgive(std::uint32_t task) {
+  if (in_x_.empty()) return;
+  const CompiledCatalog& catalog = model_.catalog();
+  const Model::Group& group = model_.groups()[model_.tasks()[task].group];
+  const TaskId id = model_.tasks()[task].id;
+  const auto of_task = catalog.task_cliques[id];
+  const auto excludes = [&](TaskId other) {
+    const auto of_other = catalog.task_cliques[other];
+    return other != id && std::find_first_of(of_task.begin(), of_task.end(), of_other.begin(),
+                                             of_other.end()) != of_task.end();
+  };
+  needs_.clear();
+  needs_.add(id);
+  needs_of_others_.clear();
+  for (std::uint32_t other = group.tasks.begin; other < group.tasks.end; ++other) {
+    const TaskId other_id = model_.tasks()[other].id;
+    if (now_.cells[other] != 0 && !excludes(other_id)) needs_of_others_.add(other_id);
+  }
+  for (std::uint32_t behavior = group.behaviors.begin; behavior < group.behaviors.end; ++behavior) {
+    const Model::Behavior& one = model_.behaviors()[behavior];
+    if (one.failed == none || one.retry != Retry::when_started) continue;
+    bool is_needed = false;
+    bool is_used = false;
+    for (const std::uint32_t value : one.values) {
+      const std::uint32_t performed = model_.task_of(value);
+      const TaskId performed_id = model_.tasks()[performed].id;
+      is_needed |= needs_.has(performed_id);
+      is_used |= now_.cells[performed] != 0 || needs_of_others_.has(performed_id);
+    }
+    if (is_needed && !is_used) in_x_[one.failed] = InX::forgiven;
+  }
+}
+
+/// Those that are not active now are in X as before.
+void Stepper::end_forgiving() {
+  if (in_x_.empty()) return;
+  for (std::uint32_t behavior = 0; behavior < model_.behaviors().size(); ++behavior) {
+    const std::uint32_t failed = model_.behaviors()[behavior].failed;
+    if (failed == none || in_x_[failed] != InX::forgiven) continue;
+    in_x_[failed] = has_bit(now_.active.data(), behavior) ? InX::no : InX::as_before;
+  }
+}
+
+void Stepper::note_changes_of_x() {
+  changes_of_x_.clear();
+  for (std::uint32_t failed = 0; failed < in_x_.size(); ++failed) {
+    if (in_x_[failed] != InX::as_before) {
+      changes_of_x_.emplace_back(failed, in_x_[failed] == InX::yes);
+    }
+  }
+}
+
+// Suspended requests.
+
+std::uint32_t Stepper::suspended_after() const {
+  const Model::Layout& layout = model_.layout();
+  std::uint32_t count = 0;
+  for (std::uint32_t place = 0; place < layout.request_count; ++place) {
+    const std::uint16_t cell = now_.cells[layout.requests + place];
+    if (cell == 0) break;
+    if (now_.cells[cell - 1U] == 0) ++count;
+  }
+  return count;
+}
+
+void Stepper::end_suspended_request(std::uint32_t task) {
+  const Model::Layout& layout = model_.layout();
+  std::uint16_t* const requests = now_.cells.data() + layout.requests;
+  std::uint16_t* const ranks = now_.cells.data() + layout.ranks;
+  std::uint32_t count = 0;
+  for (std::uint32_t place = 0; place < layout.request_count; ++place) {
+    if (requests[place] == task + 1) continue;
+    requests[count] = requests[place];
+    ranks[count++] = ranks[place];
+  }
+  std::fill(requests + count, requests + layout.request_count, std::uint16_t{0});
+  std::fill(ranks + count, ranks + layout.request_count, std::uint16_t{0});
+}
+
+bool Stepper::may_improve(std::uint32_t task) const {
+  return now_.cells[task] != 0 && model_.tasks()[task].improve == Improve::at_once;
+}
+
+bool Stepper::has_reason_to_reconsider(std::uint32_t group) const {
+  if (!model_.groups()[group].is_reconsidered) return false;
+  const BitRange tasks = model_.groups()[group].tasks;
+  for (std::uint32_t task = tasks.begin; task < tasks.end; ++task) {
+    if (may_improve(task)) return true;
+    if (now_.cells[task] == 0 && rank_in(now_, task) > 0) return true;
+  }
+  return false;
 }
 
 /// Counts the sets of the queue from 1 again; those that joined now are the last.

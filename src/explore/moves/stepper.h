@@ -7,6 +7,7 @@
 #include "cbc/event.h"
 #include "explore/model/model.h"
 #include "explore/moves/decisions.h"
+#include "runtime/coordinator/may_need.h"
 
 namespace cbc {
 
@@ -26,7 +27,9 @@ struct MoveTrace {
     std::vector<std::pair<std::uint32_t, FinishCause>> stopped;  ///< tasks
     std::vector<std::uint16_t> queue;    ///< by reactive task: its set, or 0
     std::vector<std::uint16_t> waiting;  ///< by reactive task
-    bool is_closed = false;              ///< nothing is added any more
+    /// Tasks whose requests are suspended, the most important one first, and their ranks.
+    std::vector<std::pair<std::uint32_t, Model::Rank>> suspended;
+    bool is_closed = false;  ///< nothing is added any more
   };
   std::vector<Happening> events;
 };
@@ -36,7 +39,9 @@ struct EnvironmentQuery {
   enum class Kind : std::uint8_t {
     fits,       ///< the behavior
     available,  ///< the behavior
+    permitted,  ///< the behavior is available, but for X
     faulty,     ///< the behavior
+    is_broken,  ///< before the move: the behavior is faulty, or in X
     gains       ///< a behavior of the group (its place in Model::groups) has become available
   };
   Kind kind = Kind::fits;
@@ -64,7 +69,7 @@ class AnswerListener;
 class Stepper {
  public:
   struct Trigger {
-    enum class Kind : std::uint8_t { start, stop, finish };
+    enum class Kind : std::uint8_t { start, stop, finish, reconsider };
     Kind kind = Kind::start;
     std::uint32_t group = 0;
     std::uint32_t task = none;
@@ -73,6 +78,9 @@ class Stepper {
     Model::Rank ranks = 0;  ///< of start and stop: requests of ranks below it are not protected
     Model::Rank rank = 0;   ///< of start: that of its request
     bool is_reactive = false;
+
+    /// A reactive start that nobody asked for.
+    [[nodiscard]] bool is_unasked() const { return is_reactive && rank == 0; }
   };
   /// What an event is answered with.
   struct Answer {
@@ -120,6 +128,11 @@ class Stepper {
   }
   /// The cells after the move.
   [[nodiscard]] const std::uint16_t* cells_after() const { return now_.cells.data(); }
+  /// Behaviors that are in X after the move, or not, whatever was before.
+  [[nodiscard]] const std::vector<std::pair<std::uint32_t, bool>>& changes_of_x() const {
+    return changes_of_x_;
+  }
+  [[nodiscard]] std::uint32_t suspended_after() const;
 
   /// Records what moves do from now on; null: nothing.
   void set_trace(MoveTrace* trace) { trace_ = trace; }
@@ -157,6 +170,9 @@ class Stepper {
   [[nodiscard]] bool is_settled() const;
   /// The rank of the task's request, plus 1; 0: none.
   [[nodiscard]] Model::Rank request_of(std::uint32_t task) const { return rank_in(before_, task); }
+  [[nodiscard]] bool is_suspended(std::uint32_t task) const {
+    return before_.cells[task] == 0 && request_of(task) > 0;
+  }
 
   [[nodiscard]] const Decisions& decisions() const { return decisions_; }
 
@@ -186,9 +202,19 @@ class Stepper {
   [[nodiscard]] bool is_available_now(std::uint32_t behavior);
   [[nodiscard]] bool is_confirmed(EnvironmentQuery::Kind kind, std::uint32_t behavior) const;
   [[nodiscard]] bool is_faulty_now(std::uint32_t behavior) const;
+  void note_failure(std::uint32_t behavior);
+  void forgive(std::uint32_t task);
+  void end_forgiving();
+  void note_changes_of_x();
   [[nodiscard]] bool gains(std::uint32_t group) const;
   void rank_requests(const Trigger& trigger);
   [[nodiscard]] Model::Rank first_protection(const Trigger& trigger) const;
+  [[nodiscard]] bool suspends(const Trigger& trigger, std::uint32_t task) const;
+  [[nodiscard]] bool has_reason_to_reconsider(std::uint32_t group) const;
+  [[nodiscard]] bool may_improve(std::uint32_t task) const;
+  [[nodiscard]] bool improves(const Trigger& trigger, const Word* solution) const;
+  void keep_what_was_not_asked_for(std::uint32_t group);
+  void remove_better(std::uint32_t task);
   void find_wanted(const Word* solution);
   [[nodiscard]] std::uint32_t first_failure() const;
   void reject(const Trigger& trigger);
@@ -198,12 +224,17 @@ class Stepper {
   void retry_waiting(std::uint32_t group);
   [[nodiscard]] bool may_enqueue(std::uint32_t reactive) const;
   void enqueue(std::uint32_t reactive);
-  [[nodiscard]] bool excludes_running_task(std::uint32_t task) const;
+  [[nodiscard]] bool counts_for(std::uint32_t task, Model::Rank rank) const;
+  [[nodiscard]] bool is_full(const Model::Limit& limit, std::uint32_t task, Model::Rank rank) const;
+  [[nodiscard]] bool is_blocked(std::uint32_t task) const;
+  [[nodiscard]] bool is_blocked_by(std::uint32_t task, std::uint32_t rival) const;
 
   bool start(std::uint32_t task, Model::Rank ranks, Model::Rank rank, bool is_reactive);
   bool stop(std::uint32_t task);
   void finish(std::uint32_t behavior, FinishCause cause, Origin origin);
   void finish_lost();
+  void reconsider(std::uint32_t group, Origin origin);
+  void end_suspended_request(std::uint32_t task);
   void start_reactive(std::uint32_t reactive);
   void adapt();
   void make(const Model::Choice& choice);
@@ -224,6 +255,11 @@ class Stepper {
   State now_;     ///< as the move leaves it
   bool accepted_ = false;
   std::uint16_t joined_set_ = 0;  ///< the set that joined the queue in the move; 0: none
+  /// What is known of a behavior that may be in X. Until the end of the event it may be so that it
+  /// is not in X, whatever was before.
+  enum class InX : std::uint8_t { as_before, yes, no, forgiven };
+  std::vector<InX> in_x_;  ///< by number of the failure, in the move
+  std::vector<std::pair<std::uint32_t, bool>> changes_of_x_;
 
   // Of the event.
   std::vector<Word> excluded_values_;
@@ -231,17 +267,23 @@ class Stepper {
   std::vector<Word> domains_;
   std::vector<Word> present_;
   std::vector<Word> must_run_;
-  std::vector<std::uint16_t> requests_;
+  std::vector<std::uint16_t> requests_;  ///< as in Problem
+  std::vector<std::uint16_t> suspended_requests_;
+  std::vector<std::uint16_t> unasked_requests_;
+  MayNeed needs_;
+  MayNeed needs_of_others_;
   std::vector<Word> was_active_;  ///< before the event, without a behavior that has finished
   std::vector<Word> active_;      ///< in the course of the event
   std::vector<Word> wanted_;      ///< by the solution
   std::vector<std::uint16_t> values_after_;  ///< by task, as cells
   std::vector<std::uint32_t> stopped_;
   std::vector<std::uint32_t> stopped_by_others_;
+  std::vector<std::uint32_t> suspended_;
   std::vector<std::uint32_t> started_;
   std::vector<std::uint32_t> lost_;  ///< behaviors of a failed rollback; the last finishes next
 
   std::vector<std::vector<std::uint32_t>> deactivation_order_;  ///< by group
+  std::vector<std::uint32_t> order_of_reactions_;               ///< numbers of reactive tasks
   MoveTrace* trace_ = nullptr;
   AnswerListener* listener_ = nullptr;
   EnvironmentOracle* environment_ = nullptr;  ///< of the present move

@@ -74,6 +74,10 @@ bool Stepper::coordinate(const Trigger& trigger) {
       reject(trigger);
       return false;
     }
+    if (trigger.kind == Trigger::Kind::reconsider && !has_excluded_ &&
+        !improves(trigger, solution)) {
+      return false;
+    }
     find_wanted(solution);
     const std::uint32_t failing = first_failure();
     if (trace_ != nullptr) note_changes(wanted_.data(), trigger.group, failing);
@@ -90,7 +94,29 @@ bool Stepper::coordinate(const Trigger& trigger) {
       active_[word] = wanted_[word] & (active_[word] | before);
     }
     exclude(failing);
+    note_failure(failing);
   }
+}
+
+/// Whether a solution resumes a task, or gives one a better behavior that may improve at once.
+bool Stepper::improves(const Trigger& trigger, const Word* solution) const {
+  for (std::size_t word = 0; word < present_.size(); ++word) {
+    for (Word bits = solution[word] & ~present_[word]; bits != 0; bits &= bits - 1) {
+      const auto value =
+          static_cast<std::uint32_t>(word * 64 + static_cast<unsigned>(std::countr_zero(bits)));
+      const std::uint32_t task = model_.task_of(value);
+      if (model_.tasks()[task].group != trigger.group) continue;
+      if (now_.cells[task] == 0) {
+        if (rank_in(now_, task) > 0) return true;
+        continue;
+      }
+      if (!may_improve(task)) continue;
+      const auto& costs = model_.catalog().values[model_.tasks()[task].id];
+      const std::uint32_t first = model_.tasks()[task].values.begin;
+      if (costs[value - first].suitability > costs[now_.cells[task] - 1U].suitability) return true;
+    }
+  }
+  return false;
 }
 
 /// The first behavior that has to be activated and cannot be, as it is faulty; or none.
@@ -132,7 +158,7 @@ const Word* Stepper::solve(Decisions& decisions, const Trigger& trigger, Model::
     Model::Rank next = 0;
     const BitRange tasks = model_.groups()[trigger.group].tasks;
     for (std::uint32_t task = tasks.begin; task < tasks.end; ++task) {
-      if (has_finished(trigger, task)) continue;
+      if (has_finished(trigger, task) || now_.cells[task] == 0) continue;
       const Model::Rank rank = rank_in(now_, task);
       if (rank > ranks && (next == 0 || rank < next)) next = rank;
     }
@@ -155,8 +181,9 @@ const Word* Stepper::ask(Decisions& decisions, const Trigger& trigger, Model::Ra
     if (cell == 0) break;
     const std::uint32_t task = cell - 1U;
     if (task < tasks.begin || task >= tasks.end || task == trigger.task) continue;
-    if (has_finished(trigger, task)) continue;
-    if (trigger.is_reactive || now_.cells[layout.ranks + place] >= ranks) {
+    if (has_finished(trigger, task) || now_.cells[task] == 0) continue;
+    const Model::Rank rank = now_.cells[layout.ranks + place];
+    if (trigger.is_reactive ? rank >= trigger.rank : rank >= ranks) {
       set_bit(must_run_.data(), task);
     }
   }
@@ -169,6 +196,9 @@ const Word* Stepper::ask(Decisions& decisions, const Trigger& trigger, Model::Ra
   question.must_run = must_run_.data();
   question.present = present_.data();
   question.requests = requests_;
+  question.suspended = static_cast<std::uint32_t>(suspended_requests_.size());
+  question.unasked = static_cast<std::uint32_t>(unasked_requests_.size());
+  question.must_not_make_worse = trigger.is_unasked();
   return decisions.find(question);
 }
 
@@ -239,27 +269,61 @@ void Stepper::find_domains(const Trigger& trigger) {
     if (task == trigger.task) {
       is_closed = trigger.kind == Trigger::Kind::stop;
     } else if (now_.cells[task] == 0) {
-      is_closed = described.start_on_request;
+      const bool waits = described.resumes && !trigger.is_unasked() && rank_in(now_, task) > 0;
+      is_closed = described.start_on_request && !waits;
     } else if (has_finished(trigger, task)) {
       is_closed = trigger.cause == FinishCause::goal_achieved;
     }
     if (is_closed) clear_range(domains_.data(), described.values);
+    const bool is_started =
+        trigger.kind == Trigger::Kind::start && !trigger.is_reactive && task == trigger.task;
+    if (described.improve == Improve::when_started && !is_started) remove_better(task);
   }
+  if (trigger.kind == Trigger::Kind::reconsider) keep_what_was_not_asked_for(trigger.group);
   if (!has_excluded_) return;
   for (std::size_t word = 0; word < domains_.size(); ++word) {
     domains_[word] &= ~excluded_values_[word];
   }
 }
 
-/// The active requests of the group, the most important one first.
+/// Where a group is reconsidered, only what may improve at once, what waits, and what these may
+/// need gets better.
+void Stepper::keep_what_was_not_asked_for(std::uint32_t group) {
+  const BitRange tasks = model_.groups()[group].tasks;
+  needs_.clear();
+  for (std::uint32_t task = tasks.begin; task < tasks.end; ++task) {
+    const bool waits = now_.cells[task] == 0 && rank_in(now_, task) > 0;
+    if (may_improve(task) || waits) needs_.add(model_.tasks()[task].id);
+  }
+  for (std::uint32_t task = tasks.begin; task < tasks.end; ++task) {
+    if (!needs_.has(model_.tasks()[task].id)) remove_better(task);
+  }
+}
+
+/// Removes the values of a running task that suit it better than its present one.
+void Stepper::remove_better(std::uint32_t task) {
+  if (now_.cells[task] == 0) return;
+  const auto& costs = model_.catalog().values[model_.tasks()[task].id];
+  const std::uint32_t first = model_.tasks()[task].values.begin;
+  const std::uint32_t present = now_.cells[task] - 1U;
+  for (std::uint32_t index = 0; index < present; ++index) {
+    if (costs[index].suitability == costs[present].suitability) break;
+    clear_bit(domains_.data(), first + index);
+  }
+}
+
+/// The requests of the group, as in Problem.
 void Stepper::rank_requests(const Trigger& trigger) {
   requests_.clear();
+  suspended_requests_.clear();
+  unasked_requests_.clear();
   const Model::Layout& layout = model_.layout();
   const BitRange tasks = model_.groups()[trigger.group].tasks;
   const bool is_start = trigger.kind == Trigger::Kind::start;
   bool is_new_listed = !is_start;
   const auto list_new = [&] {
-    requests_.push_back(static_cast<std::uint16_t>(trigger.task));
+    auto& list = trigger.is_unasked() ? unasked_requests_ : requests_;
+    list.push_back(static_cast<std::uint16_t>(trigger.task));
     is_new_listed = true;
   };
   for (std::uint32_t place = 0; place < layout.request_count; ++place) {
@@ -269,9 +333,17 @@ void Stepper::rank_requests(const Trigger& trigger) {
     if (!is_new_listed && now_.cells[layout.ranks + place] < trigger.ranks) list_new();
     if (task < tasks.begin || task >= tasks.end || task == trigger.task) continue;
     if (trigger.cause == FinishCause::goal_achieved && has_finished(trigger, task)) continue;
-    requests_.push_back(static_cast<std::uint16_t>(task));
+    if (now_.cells[task] == 0) {
+      if (!trigger.is_unasked()) suspended_requests_.push_back(static_cast<std::uint16_t>(task));
+    } else if (now_.cells[layout.ranks + place] == 0) {
+      unasked_requests_.push_back(static_cast<std::uint16_t>(task));
+    } else {
+      requests_.push_back(static_cast<std::uint16_t>(task));
+    }
   }
   if (!is_new_listed) list_new();
+  requests_.insert(requests_.end(), suspended_requests_.begin(), suspended_requests_.end());
+  requests_.insert(requests_.end(), unasked_requests_.begin(), unasked_requests_.end());
 }
 
 /// Rolls back; what cannot be activated again is lost.
@@ -280,13 +352,16 @@ void Stepper::reject(const Trigger& trigger) {
   if (model_.layout().faulty_count > 0) {
     if (trace_ != nullptr) note_changes(was_active_.data(), trigger.group, none);
     for_each_bit(was_active_.data(), was_active_.size(), [&](std::uint32_t behavior) {
-      if (!has_bit(active_.data(), behavior) && is_faulty_now(behavior)) lost_.push_back(behavior);
+      if (has_bit(active_.data(), behavior) || !is_faulty_now(behavior)) return;
+      lost_.push_back(behavior);
+      note_failure(behavior);
     });
     std::sort(lost_.begin(), lost_.end(),
               [&](auto a, auto b) { return model_.behaviors()[a].id > model_.behaviors()[b].id; });
   }
   if (!trigger.is_reactive) return;
-  now_.cells[model_.layout().waiting + model_.tasks()[trigger.task].reactive] = 1;
+  const bool waits = trigger.is_unasked() || !has_excluded_;
+  now_.cells[model_.layout().waiting + model_.tasks()[trigger.task].reactive] = waits ? 1 : 0;
 }
 
 void Stepper::accept(const Trigger& trigger, const Word* solution) {
@@ -295,6 +370,7 @@ void Stepper::accept(const Trigger& trigger, const Word* solution) {
   started_.clear();
   stopped_.clear();
   stopped_by_others_.clear();
+  suspended_.clear();
   std::fill(values_after_.begin(), values_after_.end(), std::uint16_t{0});
   for_each_bit(solution, present_.size(), [&](std::uint32_t value) {
     const std::uint32_t task = model_.task_of(value);
@@ -310,6 +386,7 @@ void Stepper::accept(const Trigger& trigger, const Word* solution) {
       const bool is_own_end =
           finished ? trigger.cause != FinishCause::situation_change : task == trigger.task;
       if (!is_own_end) stopped_by_others_.push_back(task);
+      if (suspends(trigger, task)) suspended_.push_back(task);
     } else if (after != 0 && cell == 0) {
       started_.push_back(task);
     }
@@ -320,6 +397,13 @@ void Stepper::accept(const Trigger& trigger, const Word* solution) {
   update_queue(trigger);
 }
 
+/// Whether a task that stops keeps its request.
+bool Stepper::suspends(const Trigger& trigger, std::uint32_t task) const {
+  if (!model_.tasks()[task].resumes || trigger.kind == Trigger::Kind::stop) return false;
+  return !has_finished(trigger, task) || trigger.cause == FinishCause::situation_change;
+}
+
+/// Of tasks that do not run, those requests remain that are suspended, now or before.
 void Stepper::update_requests(const Trigger& trigger) {
   const Model::Layout& layout = model_.layout();
   std::uint16_t* const requests = now_.cells.data() + layout.requests;
@@ -328,7 +412,11 @@ void Stepper::update_requests(const Trigger& trigger) {
   const bool is_start = trigger.kind == Trigger::Kind::start;
   for (std::uint32_t place = 0; place < layout.request_count && requests[place] != 0; ++place) {
     const std::uint32_t task = requests[place] - 1U;
-    if (now_.cells[task] == 0 || (is_start && task == trigger.task)) continue;
+    if (is_start && task == trigger.task) continue;
+    const auto is_in = [task](const std::vector<std::uint32_t>& list) {
+      return std::find(list.begin(), list.end(), task) != list.end();
+    };
+    if (now_.cells[task] == 0 && is_in(stopped_) && !is_in(suspended_)) continue;
     requests[count] = requests[place];
     ranks[count++] = ranks[place];
   }
@@ -344,10 +432,40 @@ void Stepper::update_requests(const Trigger& trigger) {
   ranks[place] = trigger.rank;
 }
 
-bool Stepper::excludes_running_task(std::uint32_t task) const {
-  const auto& rivals = model_.tasks()[task].rivals;
-  return std::any_of(rivals.begin(), rivals.end(),
-                     [&](std::uint32_t rival) { return has_bit(now_.running.data(), rival); });
+/// Whether a task stands in the way of a reactive start with a priority of this rank.
+bool Stepper::counts_for(std::uint32_t task, Model::Rank rank) const {
+  return has_bit(now_.running.data(), task) && (rank == 0 || rank_in(now_, task) > rank);
+}
+
+bool Stepper::is_full(const Model::Limit& limit, std::uint32_t task, Model::Rank rank) const {
+  const auto running =
+      std::count_if(limit.tasks.begin(), limit.tasks.end(),
+                    [&](std::uint32_t other) { return other != task && counts_for(other, rank); });
+  return running >= limit.most;
+}
+
+/// Of a reactive task.
+bool Stepper::is_blocked(std::uint32_t task) const {
+  const Model::Task& described = model_.tasks()[task];
+  const Model::Rank rank = described.reactive_rank;
+  const auto counts = [&](std::uint32_t rival) { return counts_for(rival, rank); };
+  return std::any_of(described.rivals.begin(), described.rivals.end(), counts) ||
+         std::any_of(described.limits.begin(), described.limits.end(), [&](std::uint32_t limit) {
+           return is_full(model_.limits()[limit], task, rank);
+         });
+}
+
+/// The same, by lists in which a rival counts.
+bool Stepper::is_blocked_by(std::uint32_t task, std::uint32_t rival) const {
+  const Model::Task& described = model_.tasks()[task];
+  const Model::Rank rank = described.reactive_rank;
+  if (!counts_for(rival, rank)) return false;
+  if (std::binary_search(described.rivals.begin(), described.rivals.end(), rival)) return true;
+  return std::any_of(described.limits.begin(), described.limits.end(), [&](std::uint32_t number) {
+    const Model::Limit& limit = model_.limits()[number];
+    return std::find(limit.tasks.begin(), limit.tasks.end(), rival) != limit.tasks.end() &&
+           is_full(limit, task, rank);
+  });
 }
 
 bool Stepper::may_enqueue(std::uint32_t reactive) const {
@@ -371,7 +489,9 @@ void Stepper::update_queue(const Trigger& trigger) {
   }
   for (const std::uint32_t task : started_) {
     if (tasks[task].reactive != none) queue[tasks[task].reactive] = 0;
-    for (const std::uint32_t rival : tasks[task].reactive_rivals) queue[rival] = 0;
+    for (const std::uint32_t rival : tasks[task].reactive_rivals) {
+      if (is_blocked_by(model_.reactive()[rival], task)) queue[rival] = 0;
+    }
   }
   retry_waiting(trigger.group);
 }
@@ -382,7 +502,7 @@ void Stepper::retry_waiting(std::uint32_t group) {
     std::uint16_t& waits = now_.cells[model_.layout().waiting + reactive];
     if (waits == 0) continue;
     const std::uint32_t task = model_.reactive()[reactive];
-    if (has_bit(now_.running.data(), task) || excludes_running_task(task)) {
+    if (has_bit(now_.running.data(), task) || is_blocked(task)) {
       waits = 0;
     } else {
       enqueue(reactive);
@@ -409,6 +529,13 @@ void Stepper::close_event() {
   const auto cells = now_.cells.begin();
   event.queue.assign(cells + layout.queue, cells + layout.queue + layout.reactive_count);
   event.waiting.assign(cells + layout.waiting, cells + layout.waiting + layout.reactive_count);
+  event.suspended.clear();
+  for (std::uint32_t place = 0; place < layout.request_count; ++place) {
+    const std::uint16_t cell = now_.cells[layout.requests + place];
+    if (cell == 0) break;
+    if (now_.cells[cell - 1U] != 0) continue;
+    event.suspended.emplace_back(cell - 1U, now_.cells[layout.ranks + place]);
+  }
   event.is_closed = true;
 }
 

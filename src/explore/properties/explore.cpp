@@ -261,6 +261,7 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<GroupId>& 
     result.decisions_computed += decisions.computed();
   }
   for (const auto& part : space.parts()) {
+    result.has_left_out |= part->has_left_out();
     result.controls += part->controls_visited();
     result.regions += part->controls().regions();
     result.diagram_nodes += part->system().sets().nodes();

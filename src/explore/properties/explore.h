@@ -45,6 +45,7 @@ struct Exploration {
   std::vector<GroupId> groups;     ///< ascending
   bool complete = false;           ///< all states were visited
   bool decided = false;            ///< it ended as soon as all properties were decided
+  bool has_left_out = false;       ///< there were moves after which too many requests wait
   std::optional<Budget::End> end;  ///< the limit that ended it; if there was one
   std::uint64_t states = 0;
   std::uint64_t transitions = 0;

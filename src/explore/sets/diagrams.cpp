@@ -234,15 +234,37 @@ Diagrams::Set Diagrams::combine_leaves(Operation operation, Set a, Set b) {
 // Changes of bits.
 
 Diagrams::ValuesNumber Diagrams::keep(Values values) {
-  cubes_.push_back(with(values));
+  Values head = values;
+  std::vector<Cleared>& cleared = cleared_.emplace_back();
+  for (; !head.bits.empty() && head.bits.back().first >= first_of_tail_; head.bits.pop_back()) {
+    const std::uint32_t bit = head.bits.back().first;
+    std::vector<bool> bits(bits_, false);
+    bits[bit] = true;
+    cleared.push_back({keep_bits(std::move(bits)), with(bit, true)});
+  }
+  cubes_.push_back(with(head));
   values_.push_back(std::move(values));
   return static_cast<ValuesNumber>(values_.size() - 1);
 }
 
-/// The strings that differ from one of the set only in these bits.
-Diagrams::Set Diagrams::forget(Set a, std::uint32_t number) {
+Diagrams::ValuesNumber Diagrams::keep_both(ValuesNumber a, ValuesNumber b) {
+  Values both;
+  std::set_union(values_[a].bits.begin(), values_[a].bits.end(), values_[b].bits.begin(),
+                 values_[b].bits.end(), std::back_inserter(both.bits));
+  return keep(std::move(both));
+}
+
+/// Whether no bit before the tail that the values give is mentioned from here on.
+bool Diagrams::is_past_head(Set a, std::uint32_t number) const {
   const auto& bits = values_[number].bits;
-  if (bits.empty() || nodes_[a].bit > bits.back().first) return a;
+  const std::size_t head = bits.size() - cleared_[number].size();
+  return head == 0 || nodes_[a].bit > bits[head - 1].first;
+}
+
+/// The strings that differ from one of the set only in these bits, of those before the tail.
+Diagrams::Set Diagrams::forget(Set a, std::uint32_t number) {
+  if (is_past_head(a, number)) return a;
+  const auto& bits = values_[number].bits;
   const Key key = key_of(Operation::forget, a, number);
   if (const Remembered& known = place_of(key); known.key == key) return known.result;
   const std::uint32_t bit = nodes_[a].bit;
@@ -256,12 +278,25 @@ Diagrams::Set Diagrams::forget(Set a, std::uint32_t number) {
 }
 
 Diagrams::Set Diagrams::changed(Set a, ValuesNumber values) {
-  return both(forget(a, values), cubes_[values]);
+  Set result = both(forget(a, values), cubes_[values]);
+  for (const Cleared& bit : cleared_[values]) {
+    const Set were_ones = one_changed(result, bit.bit, false);
+    result = either(without(result, bit.ones), were_ones);
+  }
+  return result;
 }
 
 Diagrams::Set Diagrams::before_change(Set a, ValuesNumber values) {
+  for (const Cleared& bit : cleared_[values]) {
+    const Set zeros = without(a, bit.ones);
+    a = either(zeros, one_changed(zeros, bit.bit, true));
+  }
+  return before_head_change(a, values);
+}
+
+Diagrams::Set Diagrams::before_head_change(Set a, std::uint32_t values) {
+  if (is_past_head(a, values)) return a;
   const auto& bits = values_[values].bits;
-  if (bits.empty() || nodes_[a].bit > bits.back().first) return a;
   const Key key = key_of(Operation::before, a, values);
   if (const Remembered& known = place_of(key); known.key == key) return known.result;
   const std::uint32_t bit = nodes_[a].bit;
@@ -269,10 +304,10 @@ Diagrams::Set Diagrams::before_change(Set a, ValuesNumber values) {
       std::find_if(bits.begin(), bits.end(), [bit](const auto& one) { return one.first == bit; });
   Set result = empty;
   if (listed != bits.end()) {
-    result = before_change(listed->second ? nodes_[a].yes : nodes_[a].no, values);
+    result = before_head_change(listed->second ? nodes_[a].yes : nodes_[a].no, values);
   } else {
-    const Set no = before_change(nodes_[a].no, values);
-    const Set yes = before_change(nodes_[a].yes, values);
+    const Set no = before_head_change(nodes_[a].no, values);
+    const Set yes = before_head_change(nodes_[a].yes, values);
     result = make(bit, no, yes);
   }
   place_of(key) = {key, result};
@@ -414,6 +449,9 @@ std::size_t Diagrams::bytes() const {
 void Diagrams::begin_collection() {
   is_marked_.assign(nodes_.size(), false);
   for (const Set cube : cubes_) mark(cube);
+  for (const std::vector<Cleared>& cleared : cleared_) {
+    for (const Cleared& bit : cleared) mark(bit.ones);
+  }
 }
 
 void Diagrams::mark(Set kept) {

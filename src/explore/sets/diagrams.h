@@ -47,8 +47,10 @@ class Diagrams {
   [[nodiscard]] Set without(Set a, Set b);
   [[nodiscard]] Set complement(Set a) { return without(all, a); }
 
-  /// Values for changed() and before_change(), none of the tail; kept as long as this object.
+  /// Values for changed() and before_change(), of the tail only zeros; kept as long as this object.
   [[nodiscard]] ValuesNumber keep(Values values);
+  /// All that two give, which agree where they give a bit both.
+  [[nodiscard]] ValuesNumber keep_both(ValuesNumber a, ValuesNumber b);
   /// The strings of the set after their bits got these values.
   [[nodiscard]] Set changed(Set a, ValuesNumber values);
   /// The strings that are in the set once their bits get these values.
@@ -145,6 +147,8 @@ class Diagrams {
   [[nodiscard]] Remembered& place_of(const Key& key);
   [[nodiscard]] Set combine(Operation operation, Set a, Set b);
   [[nodiscard]] Set forget(Set a, std::uint32_t number);
+  [[nodiscard]] Set before_head_change(Set a, std::uint32_t number);
+  [[nodiscard]] bool is_past_head(Set a, std::uint32_t number) const;
   [[nodiscard]] Set one_changed(Set a, std::uint32_t number, bool to, std::uint32_t bit);
   [[nodiscard]] std::uint64_t hash(const Node& node) const;
   [[nodiscard]] std::uint64_t hash(const Word* row) const;
@@ -167,8 +171,14 @@ class Diagrams {
   std::vector<Set> table_;  ///< of nodes by their hash; 0: none
   std::size_t in_table_ = 0;
   std::vector<Remembered> remembered_;
-  std::vector<Values> values_;
-  std::vector<Set> cubes_;  ///< by number of values
+  std::vector<Values> values_;  ///< kept ones
+  std::vector<Set> cubes_;      ///< of these, what precedes the tail
+  /// And each bit of the tail.
+  struct Cleared {
+    ValuesNumber bit = 0;  ///< alone, as kept bits
+    Set ones = empty;      ///< the strings that have it
+  };
+  std::vector<std::vector<Cleared>> cleared_;
   std::vector<std::vector<bool>> bit_lists_;
   std::vector<std::vector<bool>> tail_lists_;  ///< of those, the tail
   std::vector<Set> to_mark_;

@@ -5,10 +5,12 @@
 
 namespace cbc {
 
-FaultSets::FaultSets(Diagrams& sets, const std::vector<std::uint32_t>& kinds, std::uint32_t most)
+FaultSets::FaultSets(Diagrams& sets, const std::vector<std::uint32_t>& kinds, std::uint32_t most,
+                     bool has_repairs)
     : sets_(sets),
       kinds_(kinds),
       most_(std::min(most, static_cast<std::uint32_t>(kinds.size()))),
+      has_repairs_(has_repairs),
       first_bit_(sets.bits() - static_cast<std::uint32_t>(kinds.size())) {
   exactly_.assign(most_ + 1, Diagrams::empty);
   exactly_[0] = Diagrams::all;
@@ -31,8 +33,10 @@ FaultSets::FaultSets(Diagrams& sets, const std::vector<std::uint32_t>& kinds, st
     all_bits[bit_of(fault)] = true;
     bits[kinds_[fault]][bit_of(fault)] = true;
   }
-  for (std::vector<bool>& of_kind : bits) {
-    faults_of_kind_.push_back(sets_.keep_bits(std::move(of_kind)));
+  if (has_repairs) {
+    for (std::vector<bool>& of_kind : bits) {
+      faults_of_kind_.push_back(sets_.keep_bits(std::move(of_kind)));
+    }
   }
   all_faults_ = sets_.keep_bits(std::move(all_bits));
 }
@@ -53,7 +57,8 @@ FaultSets::Set FaultSets::before_repair(std::uint32_t kind, Set set) {
 std::uint64_t FaultSets::count_moves(Set set) {
   std::uint64_t moves = 0;
   for (std::uint32_t faults = 0; faults <= most_; ++faults) {
-    const std::uint32_t of_each = faults + (faults < most_ ? count() - faults : 0);
+    const std::uint32_t of_each =
+        (has_repairs_ ? faults : 0) + (faults < most_ ? count() - faults : 0);
     moves += sets_.count(sets_.both(set, exactly_[faults])) * of_each;
   }
   return moves;

@@ -15,13 +15,16 @@ class FaultSets {
  public:
   using Set = Diagrams::Set;
 
-  /// `kinds`: by fault. `most`: how many there are at a time.
-  FaultSets(Diagrams& sets, const std::vector<std::uint32_t>& kinds, std::uint32_t most);
+  /// `kinds`: by fault. `most`: how many there are at a time. `has_repairs`: false: repairs are
+  /// something else, and there are no kinds of them here.
+  FaultSets(Diagrams& sets, const std::vector<std::uint32_t>& kinds, std::uint32_t most,
+            bool has_repairs = true);
 
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(kinds_.size()); }
   [[nodiscard]] std::uint32_t most() const { return most_; }
   [[nodiscard]] std::uint32_t bit_of(std::uint32_t fault) const { return first_bit_ + fault; }
   [[nodiscard]] std::uint32_t kind_of(std::uint32_t fault) const { return kinds_[fault]; }
+  [[nodiscard]] bool has_repairs() const { return has_repairs_; }
   [[nodiscard]] std::uint32_t kind_count() const {
     return static_cast<std::uint32_t>(faults_of_kind_.size());
   }
@@ -46,6 +49,7 @@ class FaultSets {
   Diagrams& sets_;
   const std::vector<std::uint32_t> kinds_;
   const std::uint32_t most_;
+  const bool has_repairs_;
   const std::uint32_t first_bit_;
   std::vector<Set> exactly_;    ///< by number of faults, up to the most: the environments with it
   Set room_ = Diagrams::empty;  ///< those in which one more may come

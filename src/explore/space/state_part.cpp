@@ -193,7 +193,7 @@ Set StatePart::sources_in(const States& all, const Layer& wanted, const MoveSele
     controls_.for_each_result(action, set, [&](Controls::NumberedResult result, Set part) {
       const Set after = environments_in(wanted, result.control);
       if (after == Diagrams::empty) return;
-      found = sets.either(found, sets.both(part, system_->before(made, after)));
+      found = sets.either(found, sets.both(part, system_->before(made, result.values, after)));
     });
   }
   return sets.either(found, sources_by_faults(all, wanted, selection));

@@ -65,6 +65,8 @@ class StatePart {
 
   [[nodiscard]] const std::vector<Layer>& layers() const { return layers_; }
   [[nodiscard]] std::uint64_t transitions() const { return transitions_; }
+  /// Whether there would be more moves, but for `suspended` in `assume`.
+  [[nodiscard]] bool has_left_out() const { return has_left_out_; }
   [[nodiscard]] std::uint64_t bytes() const;
   /// The number of its controls that were visited, or are to be.
   [[nodiscard]] std::uint64_t controls_visited() const { return controls_visited_; }
@@ -100,6 +102,10 @@ class StatePart {
   bool make_moves_of(const States& states, Visitor& visitor, MayGoOn& may_go_on);
   template <typename Visitor>
   void add_faults(const States& states, Visitor& visitor);
+  void leave_out(Set set) {
+    transitions_ -= system_->sets().count(set);
+    has_left_out_ = true;
+  }
   void collect();
   void find_predecessors();
   [[nodiscard]] std::vector<Controls::Number> controls_before(const Layer& layer);
@@ -120,6 +126,7 @@ class StatePart {
   /// By control: its own ones that have a move to it; found when it is first asked.
   std::vector<std::vector<Controls::Number>> predecessors_;
   std::uint64_t transitions_ = 0;
+  bool has_left_out_ = false;
   std::uint64_t controls_visited_ = 0;
 };
 
@@ -155,10 +162,13 @@ bool StatePart::make_moves_of(const States& states, Visitor& visitor, MayGoOn& m
       const States from{states.control, part};
       if (result.note != 0) visitor.on_note(result.note, from);
       if (made.is_start && !result.accepted) visitor.on_refusal(action, from);
-      if (result.control == none) return;
+      if (result.control == none) {
+        if (!result.exists) leave_out(part);
+        return;
+      }
       visitor.on_result(action, from, result);
-      const bool changes = made.changes || result.control != states.control;
-      if (changes) add(result.control, system_->after(made, part));
+      const bool changes = made.changes || result.values != 0 || result.control != states.control;
+      if (changes) add(result.control, system_->after(made, result.values, part));
     });
     if (!may_go_on()) return false;
   }

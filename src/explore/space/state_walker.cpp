@@ -26,8 +26,6 @@ std::optional<Controls::NumberedResult> StateWalker::try_move(std::size_t place)
   const ControlSystem::StateMove& move = system.moves()[place];
   load();
   if (!system.has(move, environment_)) return std::nullopt;
-  after_ = environment_;
-  system.change(move, after_);
   Controls& controls = part_->controls();
   if (move.fault == none) {
     result_ = controls.result_in(move.action, environment_);
@@ -36,6 +34,9 @@ std::optional<Controls::NumberedResult> StateWalker::try_move(std::size_t place)
   } else {
     result_ = controls.after_fault();
   }
+  if (!result_.exists) return std::nullopt;
+  after_ = environment_;
+  system.change(move, result_.values, after_);
   return result_;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <span>
 #include <unordered_map>
 
 #include "core/support/graph.h"
@@ -159,14 +160,18 @@ CatalogGraph to_graph(const CompiledCatalog& catalog) {
   for (std::uint32_t behavior = 0; behavior < catalog.behaviors.size(); ++behavior) {
     add_behavior(catalog, behavior, graph);
   }
-  std::vector<std::uint32_t> tasks;
-  for (std::size_t clique = 0; clique < catalog.cliques.size(); ++clique) {
-    tasks.clear();
-    for (const TaskId task : catalog.cliques[clique]) {
-      tasks.push_back(catalog.tasks[task].catalog_index);
-    }
+  const auto add_list = [&](std::span<const TaskId> members, std::uint32_t at_most) {
+    std::vector<std::uint32_t> tasks;
+    for (const TaskId task : members) tasks.push_back(catalog.tasks[task].catalog_index);
     std::sort(tasks.begin(), tasks.end());
     graph.exclusions.add_row(tasks);
+    graph.at_most.push_back(at_most);
+  };
+  for (std::size_t clique = 0; clique < catalog.cliques.size(); ++clique) {
+    add_list(catalog.cliques[clique], 1);
+  }
+  for (std::size_t limit = 0; limit < catalog.limits.size(); ++limit) {
+    add_list(catalog.limited[limit], catalog.limits[limit].most);
   }
   graph.exclusion_marks.begin = graph.exclusions.begin;
   graph.exclusion_marks.items.resize(graph.exclusions.items.size());
@@ -305,7 +310,8 @@ class ReadingGraph {
   }
 
   void add_exclusions() {
-    std::map<std::vector<std::uint32_t>, bool> lists;  // and whether it is faulty
+    // With how many may run, and whether it is faulty.
+    std::map<std::pair<std::vector<std::uint32_t>, std::uint32_t>, bool> lists;
     for (std::size_t list = 0; list < catalog_.exclusivity.size(); ++list) {
       const ExclusivityList& from = catalog_.exclusivity[list];
       std::vector<std::uint32_t> tasks = from.tasks;
@@ -315,10 +321,12 @@ class ReadingGraph {
       }
       std::sort(tasks.begin(), tasks.end());
       tasks.erase(std::unique(tasks.begin(), tasks.end()), tasks.end());
-      if (tasks.size() > 1) lists[std::move(tasks)] |= is_faulty(from.range);
+      if (tasks.size() > 1) lists[{std::move(tasks), from.at_most}] |= is_faulty(from.range);
     }
-    for (const auto& [tasks, is_wrong] : lists) {
+    for (const auto& [list, is_wrong] : lists) {
+      const auto& [tasks, at_most] = list;
       graph_.exclusions.add_row(tasks);
+      graph_.at_most.push_back(at_most);
       graph_.exclusion_marks.add_row(std::vector<Mark>(tasks.size(), mark_of(is_wrong)));
     }
   }

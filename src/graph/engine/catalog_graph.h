@@ -99,6 +99,7 @@ struct CatalogGraph {
   std::vector<Performance> performances;  ///< by behavior, then by task; pairs differ
   std::vector<Requirement> requirements;  ///< the same
   GrowingRows<std::uint32_t> exclusions;  ///< the tasks of each list, ascending; at least two
+  std::vector<std::uint32_t> at_most;     ///< by list: how many of its tasks may run
   /// By list, of each task. The exclusion of two tasks has their marks, joined; a list in which
   /// both are plain prevails over others.
   GrowingRows<Mark> exclusion_marks;

@@ -324,7 +324,10 @@ class Legend {
                      diagram_.nodes[edge.from].kind != NodeKind::hub;
             }),
             EdgeKind::exclusion, "not at the same time");
-    explain(has(NodeKind::hub), NodeKind::hub, "at most one of them at a time");
+    const bool has_limit = has_node([](const Node& node) { return node.at_most > 1; });
+    explain(has(NodeKind::hub), NodeKind::hub,
+            has_limit ? "at most so many of them at a time; one without a number"
+                      : "at most one of them at a time");
   }
 
   void add_texts() {

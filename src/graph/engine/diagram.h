@@ -39,6 +39,7 @@ struct Node {
   Millionths minimum_performance = 0;    ///< 0: none
   std::optional<std::int32_t> priority;  ///< of a task: of its request, in a state
   std::uint32_t left_out = 0;            ///< of a hub: tasks of the list that are not drawn
+  std::uint32_t at_most = 1;             ///< of a hub: how many tasks of the list may run
   std::string label;                     ///< on one line, fit to be shown
   std::vector<std::string> notes;        ///< each on a line below
   Mark mark = Mark::plain;

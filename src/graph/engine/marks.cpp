@@ -164,7 +164,11 @@ class ExclusionMarker {
     }
     for (std::size_t list = 0; list < graph.exclusions.size(); ++list) {
       const auto row = graph.exclusions[list];
-      new_lists_.emplace_back(row.begin(), row.end());
+      if (graph.at_most[list] > 1) {
+        limits_.emplace_back(Tasks(row.begin(), row.end()), graph.at_most[list]);
+      } else {
+        new_lists_.emplace_back(row.begin(), row.end());
+      }
     }
     for (std::size_t clique = 0; clique < before.cliques.size(); ++clique) {
       Tasks& list = old_lists_.emplace_back();
@@ -245,6 +249,12 @@ class ExclusionMarker {
       tasks.close_row();
       marks.close_row();
     }
+    graph_.at_most.assign(lists_.size(), 1);
+    for (const auto& [members, at_most] : limits_) {
+      tasks.add_row(members);
+      marks.add_row(std::vector<Mark>(members.size(), Mark::plain));
+      graph_.at_most.push_back(at_most);
+    }
     graph_.exclusions = std::move(tasks);
     graph_.exclusion_marks = std::move(marks);
   }
@@ -253,6 +263,7 @@ class ExclusionMarker {
   Pairs added_;
   Pairs removed_;
   std::vector<Tasks> new_lists_;
+  std::vector<std::pair<Tasks, std::uint32_t>> limits_;  ///< lists of which several may run
   std::vector<Tasks> old_lists_;
   std::vector<List> lists_;  ///< first those of the newer catalog, then those that are added
 };
@@ -316,6 +327,8 @@ class Union {
         case ChangeSubject::variable:
           mark_variable(change);
           break;
+        case ChangeSubject::limit:
+          break;  // the lists of the newer catalog are drawn
         case ChangeSubject::exclusion:
           break;  // marked together, by ExclusionMarker
       }

@@ -231,7 +231,11 @@ void Builder::add_hub(std::uint32_t list, const std::vector<Member>& members) {
   hub.id = id_of("exclusivity", graph_.tasks[tasks.front()].name);
   hub.group = graph_.tasks[tasks.front()].group;
   hub.left_out = static_cast<std::uint32_t>(tasks.size() - members.size());
-  if (hub.left_out > 0) hub.label = "and " + std::to_string(hub.left_out) + " more";
+  hub.at_most = graph_.at_most[list];
+  if (hub.at_most > 1) hub.label = "at most " + std::to_string(hub.at_most);
+  if (hub.left_out > 0) {
+    hub.label += (hub.label.empty() ? "and " : ", and ") + std::to_string(hub.left_out) + " more";
+  }
   hub.mark = members.front().mark;
   for (const Member& member : members) {
     if (member.mark != hub.mark) hub.mark = Mark::plain;
@@ -254,7 +258,7 @@ void Builder::add_exclusions(ExclusivityStyle style) {
     if (members.size() < 2 && !has_named_task(graph_, part_, list)) continue;
     const std::size_t most = style == ExclusivityStyle::readable ? most_for_pairs : 2;
     const bool are_pairs = style == ExclusivityStyle::pairs || members.size() <= most;
-    if (members.size() == 1 || !are_pairs) {
+    if (members.size() == 1 || !are_pairs || graph_.at_most[list] > 1) {
       hubs.emplace_back(list, std::move(members));
       continue;
     }

@@ -114,10 +114,15 @@ constexpr auto node = variants(
                                                    : std::optional(by_variable(of.situation));
                      })),
     variant({NodeKind::hub},
-            "A list of tasks that exclude one another, with an edge to each of them.",
+            "A list of tasks that exclude one another, or of which so many may run, with an edge "
+            "to each of them.",
             member("name", null, "", name_of_node), group_of_node,
             member("left_out", count, "Number of tasks in the list that are not drawn.",
-                   &Node::left_out)));
+                   &Node::left_out),
+            optional("at_most", integer(2), "How many of the tasks may run, where not one.",
+                     [](const Node& of) {
+                       return of.at_most > 1 ? std::optional(of.at_most) : std::nullopt;
+                     })));
 
 constexpr auto ends =
     group(member(
@@ -188,6 +193,8 @@ std::string describe_subject(const CatalogChange& change) {
       return behavior + " requires " + task;
     case ChangeSubject::variable:
       return "situation variable " + printable(change.variable);
+    case ChangeSubject::limit:
+      return "list of " + task;
     case ChangeSubject::exclusion:
       return task + " excludes " + printable(change.other_task);
   }
@@ -286,8 +293,9 @@ constexpr auto attribute =
         member("name", text,
                "suitability, minimum_performance: in percent. timeout: in seconds. `parameter "
                "NAME`: the allowed values of a parameter of a task, empty if any value is "
-               "allowed. values, initial value: of a situation variable, null if it is declared "
-               "without any. `situation NAME`: the values of a situation variable in which a "
+               "allowed. reactive_priority and at_most are texts, too. values, initial value: of a "
+               "situation variable, null if it is declared without any. `situation NAME`: the "
+               "values of a situation variable in which a "
                "behavior fits; true or false for a variable that is declared without values.",
                &AttributeChange::name),
         member("before", Setting(), "", &AttributeChange::before),
@@ -296,14 +304,15 @@ constexpr auto attribute =
           {"properties": {"name": {"enum": ["suitability", "minimum_performance", "timeout"]},
                           "before": {"type": ["number", "null"], "minimum": 0},
                           "after": {"type": ["number", "null"], "minimum": 0}}},
-          {"properties": {"name": {"enum": ["reactive_start", "start_on_request"]},
+          {"properties": {"name": {"enum": ["reactive_start", "start_on_request", "requestable",
+                                            "resume"]},
                           "before": {"type": ["boolean", "null"]},
                           "after": {"type": ["boolean", "null"]}}},
           {"properties": {"name": {"const": "execution_goal"},
                           "before": {"enum": ["achieve_goal", "keep_running", null]},
                           "after": {"enum": ["achieve_goal", "keep_running", null]}}},
           {"properties": {"name": {"type": "string",
-                                   "pattern": "^(package$|parameter |values$|initial value$)"},
+                                   "pattern": "^(package$|parameter |values$|initial value$|reactive_priority$|improve$|retry$|at_most$)"},
                           "before": {"type": ["string", "null"]},
                           "after": {"type": ["string", "null"]}}},
           {"properties": {"name": {"type": "string", "pattern": "^situation "},
@@ -331,6 +340,9 @@ constexpr auto change =
                 "A behavior performs or requires a task.", behavior, task),
         variant({ChangeSubject::variable}, "",
                 member("variable", text, "", &CatalogChange::variable)),
+        variant({ChangeSubject::limit}, "A list of tasks of which several may run.",
+                member("tasks", text, "Their names in order, with ', ' between them.",
+                       &CatalogChange::task)),
         variant(
             {ChangeSubject::exclusion},
             "Two tasks exclude one another; `other_task` comes after `task` in the order of names. "

@@ -194,6 +194,7 @@ std::string lint_summary(const LintedFile& file, const Style& style) {
   table.add("  exclusive pairs", total.constraints.exclusive_pairs);
   table.add("  requirements", total.constraints.requirements);
   table.add("  task minimums", total.constraints.task_minimums);
+  if (total.constraints.limits > 0) table.add("  at most so many", total.constraints.limits);
   add_groups(table, file.summary->groups);
   table.add("search space", readable_number(total.search_space));
   return name + "\n" + table.take();

@@ -47,6 +47,8 @@ constexpr Snippet snippets[] = {
      R"({"parameter": "${1:NAME}", "allowed_values": [${2:0}, ${3:100}]})"},
     {FileKind::catalog, "exclusivity_constraints", "tasks that exclude one another",
      R"({"mutually_exclusive": ["${1:TASK}", "${2:OTHER}"]})"},
+    {FileKind::catalog, "exclusivity_constraints", "tasks of which some may run",
+     R"({"mutually_exclusive": ["${1:TASK}", "${2:OTHER}", "${3:THIRD}"], "at_most": ${4:2}})"},
     {FileKind::catalog, "situation", "variable", R"({"variable": "${1:NAME}"})"},
     {FileKind::catalog, "situation", "variable with values",
      R"({"variable": "${1:NAME}", "values": ["${2:VALUE}", "${3:OTHER}"]})"},

@@ -78,9 +78,16 @@ std::string describe_task(const Catalog& catalog, const Task& task) {
     }
   }
   std::set<TaskIndex> excluded;
+  std::string limits;
   for (const ExclusivityList& exclusivity : catalog.exclusivity) {
     const std::vector<TaskIndex> tasks = distinct_tasks(exclusivity);
     if (!std::binary_search(tasks.begin(), tasks.end(), index)) continue;
+    if (exclusivity.at_most > 1) {
+      Texts members;
+      for (const TaskIndex member : tasks) members.push_back(catalog.tasks[member].name);
+      limits += line(fmt::format("at most {} of", exclusivity.at_most), members);
+      continue;
+    }
     excluded.insert(tasks.begin(), tasks.end());
   }
   excluded.erase(index);
@@ -88,9 +95,21 @@ std::string describe_task(const Catalog& catalog, const Task& task) {
   for (const TaskIndex other : excluded) excludes.push_back(catalog.tasks[other].name);
   std::string text = heading("task", task.name);
   text += performed_by.empty() ? "- no behavior performs it\n" : line("performed by", performed_by);
-  text += line("excludes", excludes);
+  text += line("excludes", excludes) + limits;
   text += line("required by", required_by);
-  if (task.reactive_start) text += "- starts by itself whenever nothing prevents it\n";
+  const TaskRules& rules = task.rules;
+  if (rules.reactive_priority > 0) {
+    text += fmt::format("- starts by itself, with priority {}\n", rules.reactive_priority);
+  } else if (task.reactive_start) {
+    text += "- starts by itself whenever nothing prevents it\n";
+  }
+  if (rules.requestable == 0) text += "- nobody may request it\n";
+  if (rules.resume != 0) text += "- its request is suspended if something else stops it\n";
+  if (rules.improve == Improve::at_once) {
+    text += "- gets a more suitable behavior as soon as one is possible\n";
+  } else if (rules.improve == Improve::when_started) {
+    text += "- gets a more suitable behavior only when it is started\n";
+  }
   if (!task.start_on_request) text += "- also starts when a behavior requires it\n";
   if (task.execution_goal == ExecutionGoal::keep_running) text += "- keeps running\n";
   if (task.timeout) text += line("timeout", {format_decimal(*task.timeout, 6) + " s"});
@@ -121,6 +140,11 @@ std::string describe_behavior(const Catalog& catalog, const Behavior& behavior) 
   }
   std::string text = heading("behavior", behavior.name);
   text += line("performs", performs) + line("requires", requirements) + line("fits in", situation);
+  if (behavior.retry == Retry::after_repair) {
+    text += "- after a failure, tried again after its repair\n";
+  } else if (behavior.retry == Retry::when_started) {
+    text += "- after a failure, tried again after its repair, or when somebody starts its task\n";
+  }
   if (behavior.timeout) text += line("timeout", {format_decimal(*behavior.timeout, 6) + " s"});
   if (!behavior.package.empty()) text += line("package", {behavior.package});
   return text;

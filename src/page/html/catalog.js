@@ -59,7 +59,7 @@ class Catalog {
 }
 
 /** Whether an event is one that is accepted or rejected. */
-const isAsked = (event) => ['start', 'stop', 'finish'].includes(event.verb);
+const isAsked = (event) => ['start', 'stop', 'finish', 'reconsider'].includes(event.verb);
 
 const describeValue = (variable, value) => `${variable} is ${value}`;
 
@@ -91,6 +91,7 @@ function describeEvent(event, catalog) {
   if (event.parameters !== undefined) text += ` ${JSON.stringify(event.parameters)}`;
   if (event.origin === 'timeout') text += ' (by the clock)';
   if (event.origin === 'reactive') text += ' (reactive start)';
+  if (event.verb === 'reconsider') return `${text} (after the ${event.origin})`;
   if (event.origin === 'situation') text += ' (it no longer fits)';
   if (event.origin === 'fault') text += ' (its activation could not be taken back)';
   return text;

@@ -181,9 +181,12 @@ function fillState(body, run, number) {
   }
   if (queue.length > 0) more.push(['reactive starts due', queue.join(', ')]);
   if (run.waiting[number].length > 0) more.push(['waiting reactive tasks', run.waiting[number].join(', ')]);
+  const suspended = Object.entries(run.suspended(number)).map(([task, priority]) => `${task}, priority ${priority}`);
+  if (suspended.length > 0) more.push(['suspended requests', suspended.join(', ')]);
   if (run.misfits[number].length > 0) more.push(['do not fit', run.misfits[number].join(', ')]);
   if (run.unavailable[number].length > 0) more.push(['unavailable', run.unavailable[number].join(', ')]);
   if (run.faulty[number].length > 0) more.push(['faulty', run.faulty[number].join(', ')]);
+  if (run.untried[number].length > 0) more.push(['failed, not tried again', run.untried[number].join(', ')]);
   if (more.length > 0) parts.push(pairs(more));
   body.replaceChildren(...parts);
 }

@@ -26,9 +26,11 @@ const looks = {
   value: { fill: 'panel', stroke: 'muted' },
   'value-text': { fill: 'ink' },
   waiting: { stroke: 'reactive-edge', width: 2, dash: [2, 4] },
+  suspended: { stroke: 'requested', width: 2, dash: [2, 4] },
   unavailable: { pattern: 'unavailable' },
   misfit: { pattern: 'misfit' },
   faulty: { pattern: 'faulty' },
+  untried: { pattern: 'untried' },
   'faulty-bar': { fill: 'bad', stroke: 'paper' },
   'off-text': { fill: 'muted', halo: 'paper', style: 'italic' },
   link: { stroke: 'link', width: 1.6 },
@@ -74,6 +76,7 @@ const patternPaths = {
   unavailable: { size: 5, path: 'M-1 -1 L6 6 M-1 4 L1 6 M4 -1 L6 1', stroke: 'muted', alpha: 0.5 },
   misfit: { size: 4, path: 'M0.5 1.5 h2 M0.5 2.5 h2', stroke: 'muted', alpha: 0.5 },
   faulty: { size: 6, path: 'M-1 -1 L7 7 M-1 7 L7 -1', stroke: 'bad', alpha: 0.7 },
+  untried: { size: 6, path: 'M-1 -1 L7 7', stroke: 'bad', alpha: 0.5 },
 };
 
 /** The colors of the scheme that is in use now. */

@@ -35,7 +35,7 @@ class Legend {
       add(name, 26, (ink) => ink.rect(name, 1, 2, 24, 12), text);
     }
     for (const [kind, text] of [['unavailable', 'unavailable'], ['does not fit', 'does not fit the situation'],
-                                ['faulty', 'faulty']]) {
+                                ['faulty', 'faulty'], ['not tried again', 'has failed, and is not tried again']]) {
       add(kind, 26, (ink) => ink.rect(outageLooks[kind], 1, 5, 24, 6), `${text}: cannot be activated`);
     }
     add('fault of active', 34, (ink) => {
@@ -46,6 +46,7 @@ class Legend {
     }, 'fault of an active behavior, which goes on');
     add('value', 26, (ink) => ink.rect('value', 1, 2, 24, 12), 'value of a situation variable');
     add('waiting', 26, (ink) => ink.line('waiting', 1, 8, 25, 8), 'reactive task that waits');
+    add('suspended', 26, (ink) => ink.line('suspended', 1, 8, 25, 8), 'request that is suspended');
     for (const [kind, look, text] of [['replaced', 'link', 'replaced in the same task'],
                                       ['way', 'way', 'its task gives way to one that excludes it']]) {
       add(kind, 22, (ink) => {
@@ -76,7 +77,7 @@ class Legend {
     mark(has('unchanged'), 'unchanged', '1', 24, 'changes no behavior');
     mark(this.hasFolds, 'fold', '9 events', 58, 'folded: zoom in, or click');
     const origins = [['timeout', 't', 'a timeout'], ['reactive', 'r', 'a reactive start'], ['situation', 's', 'the situation'],
-                     ['fault', 'f', 'a fault']].filter(([origin]) => has(`by ${origin}`));
+                     ['fault', 'f', 'a fault'], ['repair', 'p', 'a repair']].filter(([origin]) => has(`by ${origin}`));
     if (origins.length > 0) {
       items.push(html('span', '', `${origins.map(([, letter]) => letter).join(', ')} after the number: made by ` +
         origins.map(([, , text]) => text).join(', ')));

@@ -32,7 +32,7 @@ class Marks {
 
   single(number) {
     const event = this.run.event(number);
-    const suffix = { timeout: ' t', reactive: ' r', situation: ' s', fault: ' f' }[event.origin] ?? '';
+    const suffix = { timeout: ' t', reactive: ' r', situation: ' s', fault: ' f', repair: ' p' }[event.origin] ?? '';
     const isFailed = this.run.isFailed(number);
     const sign = isFailed ? '! ' : event.outcome === 'rejected' ? '\u00d7 ' : '';
     const text = `${sign}${this.run.indexOf(number)}${suffix}`;

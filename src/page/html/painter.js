@@ -25,7 +25,7 @@ function glyphOf(cause) {
 }
 
 /** How the stretches in which a behavior cannot be activated look, by the kind of their outage. */
-const outageLooks = { unavailable: 'unavailable', 'does not fit': 'misfit', faulty: 'faulty' };
+const outageLooks = { unavailable: 'unavailable', 'does not fit': 'misfit', faulty: 'faulty', 'not tried again': 'untried' };
 
 function drawGlyph(ink, x, y, shape, look) {
   ink.circle(`glyph-ground${look}`, x, y, 5.6);
@@ -175,7 +175,7 @@ class Painter {
     }
   }
 
-  /** A line in the row of a reactive task, from the rejected start until the task runs or gives up. */
+  /** A line in the row of a task that waits, until it runs or gives up. */
   drawWaiting() {
     for (const wait of this.run.waitings) {
       const row = this.rows.find(wait.task);
@@ -183,7 +183,7 @@ class Painter {
       const end = this.view.endOf(wait);
       if (row === undefined || !this.view.isInView(x, end)) continue;
       const y = this.top + row.y + row.height - 2;
-      this.ink.line('waiting', x, y, end, y);
+      this.ink.line(wait.kind, x, y, end, y);
     }
   }
 
@@ -256,7 +256,7 @@ class Painter {
     if (span.cause === 'requested') {
       return [`${again}requested, priority ${span.priority}`, `priority ${span.priority}`, `${span.priority}`];
     }
-    if (span.cause === 'reactive') return ['reactive start, priority 0', 'reactive', '0'];
+    if (span.cause === 'reactive') return [`reactive start, priority ${span.priority}`, 'reactive', `${span.priority}`];
     const by = requirers.length > 0 ? [`required by ${requirers.join(', ')}`] : [];
     return [...by, 'required'];
   }

@@ -1,13 +1,7 @@
 // What a run was: its states, the spans of activity in it, the rows they need, and which behavior
 // followed which. Nothing here touches the page.
 
-/** Causes of spans, as in the changes: by the request of the task. */
-function causeOf(priority) {
-  if (priority === undefined) return 'required';
-  return priority === 0 ? 'reactive' : 'requested';
-}
-
-const newState = { index: 0, time: 0, running: {}, requests: {}, queue: {}, faulty: [] };
+const newState = { index: 0, time: 0, running: {}, requests: {}, suspended: {}, queue: {}, faulty: [], failed: [] };
 
 class Run {
   /** `data`: a run of the report; `begin`: the situation before it, and the state, if there is one. Events
@@ -136,7 +130,7 @@ class Run {
   setUpSituations() {
     const { variables, behaviors } = this.catalog;
     this.outages = []; // {behavior, kind, from, to}: numbers of events, `to` null at the end
-    this.openOutages = { unavailable: new Map(), 'does not fit': new Map(), faulty: new Map() };
+    this.openOutages = { unavailable: new Map(), 'does not fit': new Map(), faulty: new Map(), 'not tried again': new Map() };
     this.conditional = [...behaviors.keys()].filter((name) => Object.keys(behaviors.get(name).situation).length > 0);
     this.present = new Map([...variables].map(([name, known]) => [name, known[0]]));
     this.values = []; // of each event: variable -> value
@@ -145,8 +139,10 @@ class Run {
     this.unavailable = [];
     this.misfits = [];
     this.faulty = [];
+    this.untried = []; // have failed, and are not tried again at any event
     this.readSituation(this.begin.situation, 0);
     for (const behavior of this.begin.faulty) this.setOutage('faulty', behavior, true, 0);
+    this.readFailures(0);
     this.noteOutages();
   }
 
@@ -184,8 +180,16 @@ class Run {
     this.values.push(new Map(this.present));
   }
 
+  readFailures(number) {
+    const failed = new Set(this.stateAt(number).failed ?? []);
+    for (const behavior of [...this.openOutages['not tried again'].keys(), ...failed]) {
+      this.setOutage('not tried again', behavior, failed.has(behavior), number);
+    }
+  }
+
   noteOutages() {
-    const { unavailable, faulty, 'does not fit': misfits } = this.openOutages;
+    const { unavailable, faulty, 'does not fit': misfits, 'not tried again': untried } = this.openOutages;
+    this.untried.push(this.catalog.sortBehaviors(untried.keys()));
     this.unavailable.push(this.catalog.sortBehaviors(unavailable.keys()));
     this.misfits.push(this.catalog.sortBehaviors(misfits.keys()));
     this.faulty.push(this.catalog.sortBehaviors(faulty.keys()));
@@ -200,12 +204,13 @@ class Run {
     }
     if (event.verb === 'fault') this.setOutage('faulty', event.name, true, number);
     if (event.verb === 'repair') this.setOutage('faulty', event.name, false, number);
+    this.readFailures(number);
     this.noteOutages();
   }
 
-  /** Which reactive tasks wait for a change of their group after each event; when, and why. */
+  /** Which reactive tasks wait for a change of their group after each event, and which requests are suspended. */
   setUpWaiting() {
-    this.waitings = []; // {task, from, to}: from the rejected start on
+    this.waitings = []; // {task, kind, from, to}: from the rejected start on, or from the event that suspended it
     this.waiting = []; // of each event: tasks
     this.openWaitings = new Map();
     this.readWaiting(0);
@@ -213,17 +218,26 @@ class Run {
 
   readWaiting(number) {
     const { queue } = this.stateAt(number);
-    for (const [task, due] of Object.entries(queue)) {
-      if (due !== null || this.openWaitings.has(task)) continue;
-      this.openWaitings.set(task, { task, from: number, to: null });
+    const suspended = this.suspended(number);
+    const begin = (task, kind) => {
+      if (this.openWaitings.has(task)) return;
+      this.openWaitings.set(task, { task, kind, from: number, to: null });
       this.waitings.push(this.openWaitings.get(task));
-    }
+    };
+    for (const [task, due] of Object.entries(queue)) if (due === null) begin(task, 'waiting');
+    for (const task of Object.keys(suspended)) begin(task, 'suspended');
     for (const [task, wait] of this.openWaitings) {
-      if (get(queue, task) !== undefined) continue;
+      if (get(queue, task) !== undefined || get(suspended, task) !== undefined) continue;
       wait.to = number;
       this.openWaitings.delete(task);
     }
-    this.waiting.push(this.catalog.sortTasks(this.openWaitings.keys()));
+    const reactive = [...this.openWaitings.keys()].filter((task) => get(suspended, task) === undefined);
+    this.waiting.push(this.catalog.sortTasks(reactive));
+  }
+
+  /** Task -> priority of the requests that are suspended after an event. */
+  suspended(number) {
+    return this.stateAt(number).suspended ?? {};
   }
 
   /** Whether the reactive start of a task was rejected by an event, so that it waits from then on. */
@@ -236,11 +250,13 @@ class Run {
   setUpSpans() {
     this.spans = [];
     this.openSpans = new Map();
+    this.reactions = new Set(); // running tasks that started by themselves, and were not asked for since
     this.readSpans(0);
   }
 
   readSpans(number) {
     const { running, requests, changes = [] } = this.stateAt(number);
+    if (number > 0) this.readReactions(this.event(number));
     const restarted = (task) => changes.some((change) =>
       change.cause === 'restarted' && change.op === 'activate' && change.tasks.includes(task));
     for (const [task, span] of this.openSpans) {
@@ -255,7 +271,7 @@ class Run {
     for (const [task, behavior] of Object.entries(running)) {
       if (this.openSpans.has(task)) continue;
       const priority = get(requests, task);
-      const span = { task, behavior, priority, cause: causeOf(priority), from: number, to: null };
+      const span = { task, behavior, priority, cause: this.causeOf(task, priority), from: number, to: null };
       span.requirers = []; // {from, names}: each from an event on
       span.faults = []; // {from, to}: while its behavior was faulty; `to` null until the span ends
       this.noteRequirers(span, number);
@@ -264,6 +280,25 @@ class Run {
       this.openSpans.set(task, span);
       this.spans.push(span);
     }
+  }
+
+  readReactions(event) {
+    if (event.outcome === 'accepted' && event.verb === 'start') {
+      if (event.origin === 'reactive') this.reactions.add(event.name);
+      else this.reactions.delete(event.name);
+    }
+    for (const task of this.reactions) if (get(event.running, task) === undefined) this.reactions.delete(task);
+  }
+
+  /** Why a task runs, as in the changes: by its request. */
+  causeOf(task, priority) {
+    if (priority === undefined) return 'required';
+    return priority === 0 || this.reactions.has(task) ? 'reactive' : 'requested';
+  }
+
+  /** The span of a task that runs after an event. */
+  spanAt(number, task) {
+    return this.spans.findLast((span) => span.task === task && span.from <= number && (span.to === null || span.to > number));
   }
 
   noteRequirers(span, number) {
@@ -314,6 +349,7 @@ class Run {
     this.shownCount = 0;
     for (const [task, behavior] of Object.entries(this.begin.running)) this.noteShown(task, behavior);
     for (const task of Object.keys(this.begin.queue)) if (this.begin.queue[task] === null) this.noteShown(task);
+    for (const task of Object.keys(this.suspended(0))) this.noteShown(task);
   }
 
   noteShown(task, behavior) {

@@ -15,7 +15,7 @@ class Signs {
     };
     readNew('spans', (span) => names.add(span.cause));
     readNew('outages', (outage) => names.add(outage.kind));
-    readNew('waitings', () => names.add('waiting'));
+    readNew('waitings', (wait) => names.add(wait.kind));
     readNew('links', (link) => names.add(link.kind));
     readNew('events', (event) => this.readEvent(event, this.read.events + 1));
     if (run.failures.size > 0) names.add('failed');

@@ -17,9 +17,10 @@ class StateGraph {
     this.nodes = new Map(names.map((task) => {
       const [was, is] = [get(before, task), get(after, task)];
       const change = was === undefined ? 'started' : is === undefined ? 'stopped' : was === is ? '' : 'replaced';
-      const priority = get(run.requests(is === undefined ? number - 1 : number), task);
+      const shown = is === undefined ? number - 1 : number;
+      const priority = get(run.requests(shown), task);
       const behavior = is ?? was;
-      return [task, { task, behavior, was, change, priority, cause: causeOf(priority) }];
+      return [task, { task, behavior, was, change, priority, cause: run.spanAt(shown, task).cause }];
     }));
     const edges = [];
     for (const from of this.nodes.values()) {

@@ -53,7 +53,11 @@ class Story {
     if (event.verb === 'situation') say(situationOf(event));
     if (event.note !== undefined) say(event.note);
     if (event.verb === 'fault' && event.note === undefined) say(`${nameOf(event.name)} is faulty: it cannot be activated`);
-    if (event.origin === 'situation') say(this.describeMisfit(number, event.name));
+    if (event.verb === 'reconsider') {
+      say(`${event.origin === 'repair' ? 'the repair' : 'the situation'} makes more possible, so a group is decided anew`);
+    } else if (event.origin === 'situation') {
+      say(this.describeMisfit(number, event.name));
+    }
     if (event.search?.status === 'unknown') {
       say('a search limit was reached before the first solution', '', true);
     } else if (event.outcome === 'rejected' && event.conflict.length === 0) {
@@ -64,6 +68,9 @@ class Story {
     }
     for (const change of event.changes) {
       if (!change.success) say(`${nameOf(change.behavior)} could not be ${change.op}d`, '', true);
+    }
+    for (const behavior of this.run.untried[number]) {
+      if (!this.run.untried[number - 1].includes(behavior)) say(`${nameOf(behavior)} has failed, and is not tried again at the next events`);
     }
     const told = new Set();
     for (const link of this.run.linksOf[number]) {
@@ -114,7 +121,15 @@ class Story {
 
   whyRuns(number, task) {
     const priority = get(this.run.requests(number), task);
-    if (priority !== undefined) return priority === 0 ? 'reactive' : `requested, priority ${priority}`;
+    const event = this.run.event(number);
+    const isStarted = event?.verb === 'start' && event.name === task;
+    if (number > 0 && !isStarted && get(this.run.suspended(number - 1), task) !== undefined) {
+      return `its request is resumed, priority ${priority}`;
+    }
+    if (priority !== undefined) {
+      const cause = this.run.spanAt(number, task)?.cause ?? 'requested';
+      return priority === 0 ? cause : `${cause}, priority ${priority}`;
+    }
     const requirers = this.run.requirers(number, task);
     return requirers.length > 0 ? `required by ${this.catalog.taskList(requirers)}` : '';
   }

@@ -92,7 +92,7 @@ class Robot {
     const why = buttonElement('why?', () => this.asks.onWhy(name));
     why.setAttribute('aria-label', `why ${name} runs or not`);
     setOff(start, !isRequestable);
-    if (!isRequestable) start.title = 'Runs only for a behavior that requires it (start_on_request: false)';
+    if (!isRequestable) start.title = 'Nobody may ask for it: it runs for a behavior that requires it, or starts by itself';
     row.buttons.append(start, stop, finish, fail, why);
     return { ...row, stop, finish, fail };
   }
@@ -127,30 +127,32 @@ class Robot {
       const behavior = get(running, name);
       const request = get(requests, name);
       const waits = get(queue, name);
+      const suspended = get(run.suspended(number), name);
       const timeout = get(due.timeouts, name);
       const parts = [
         behavior === undefined ? '' : behavior === name ? 'runs' : `runs: ${behavior}`,
         request === undefined ? '' : `requested${request === 1 ? '' : `, priority ${request}`}`,
+        suspended === undefined ? '' : `suspended, priority ${suspended}`,
         waits === undefined ? '' : waits === null ? 'waits for a change' : `starts by itself in ${inSeconds(waits - due.now)}`,
         timeout === undefined ? '' : `times out in ${inSeconds(timeout - due.now)}`,
       ];
       this.say(row, parts, behavior === undefined ? '' : request === undefined ? 'required' : 'requested');
-      setOff(row.stop, behavior === undefined && request === undefined && waits === undefined);
+      setOff(row.stop, behavior === undefined && request === undefined && waits === undefined && suspended === undefined);
       setOff(row.finish, behavior === undefined);
       setOff(row.fail, behavior === undefined);
     }
-    const [faulty, unavailable, misfits] = ['faulty', 'unavailable', 'misfits'].map((kind) => new Set(run[kind][number]));
+    const [faulty, untried, unavailable, misfits] = ['faulty', 'untried', 'unavailable', 'misfits'].map((kind) => new Set(run[kind][number]));
     const performed = new Map();
     for (const [task, behavior] of Object.entries(running)) performed.set(behavior, [...(performed.get(behavior) ?? []), task]);
     for (const [name, row] of this.behaviors) {
       const parts = [
         performed.has(name) ? `active for ${performed.get(name).join(', ')}` : '',
-        faulty.has(name) ? 'faulty' : '', unavailable.has(name) ? 'unavailable' : '',
+        faulty.has(name) ? 'faulty' : '', untried.has(name) ? 'has failed, is not tried again' : '', unavailable.has(name) ? 'unavailable' : '',
         misfits.has(name) ? 'does not fit the situation' : '',
       ];
       this.say(row, parts, performed.has(name) ? 'requested' : faulty.has(name) ? 'faulty' : '');
       setOff(row.fault, faulty.has(name));
-      setOff(row.repair, !faulty.has(name));
+      setOff(row.repair, !faulty.has(name) && !untried.has(name));
     }
     for (const [name, row] of this.variables) {
       for (const [value, button] of row.choices) {

@@ -24,6 +24,8 @@ def table_of(robot: Coordinator) -> str:
         "situation": ", ".join(f"{name}: {value}" for name, value in robot.variables.items()),
         "cannot be activated": ", ".join(robot.unavailable),
         "faulty": ", ".join(robot.faulty),
+        "failed, not tried again": ", ".join(robot.failed),
+        "suspended requests": ", ".join(robot.suspended),
         "will start": ", ".join(robot.queue),
         "next event of the clock": "" if robot.next_due is None else f"{robot.next_due:.3f} s",
     }

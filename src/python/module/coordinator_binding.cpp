@@ -64,6 +64,10 @@ std::shared_ptr<PythonEvent> start(PythonCoordinator& coordinator, const py::obj
     Step step;
     step.verb = Verb::start;
     step.subject = read_task(catalog, task);
+    if (catalog.rules_of(catalog.task_ids[step.subject]).requestable == 0) {
+      raise("UsageError", concat("task ", quote(catalog.task_names[step.subject]),
+                                 " cannot be requested: the catalog says 'requestable: false'"));
+    }
     step.priority = read_priority(priority, Verb::start);
     step.parameters = read_parameters(catalog, step.subject, parameters);
     return step;
@@ -301,6 +305,21 @@ void bind_option(py::module_& module) {
       },
       "Behaviors whose activation would be tried and fail, as they are faulty.");
   type.def_property_readonly(
+      "suspended",
+      [](const PythonOption& of) {
+        return make_tuple_of(of.option.effects.suspended,
+                             [&of](TaskId task) { return name_of_task(*of.catalog, task); });
+      },
+      "Tasks whose request would be suspended.");
+  type.def_property_readonly(
+      "not_retried",
+      [](const PythonOption& of) {
+        return make_tuple_of(of.option.effects.not_retried, [&of](BehaviorId behavior) {
+          return name_of_behavior(*of.catalog, behavior);
+        });
+      },
+      "Behaviors that would have failed, and not be tried again at any event.");
+  type.def_property_readonly(
       "queued",
       [](const PythonOption& of) {
         return dict_of(*of.catalog, of.option.queued,
@@ -317,10 +336,12 @@ void bind_option(py::module_& module) {
 }
 
 void bind_verbs(py::class_<PythonCoordinator>& type) {
-  type.def("start", &start, py::arg("task"), py::arg("priority") = 1, py::kw_only(),
-           py::arg("at") = py::none(), py::arg("parameters") = py::none(),
-           "Requests a task. `priority`: 1 or higher; higher is stronger. `at`: seconds on the\n"
-           "clock; None: now. `parameters`: None: the task keeps those that it has.");
+  type.def(
+      "start", &start, py::arg("task"), py::arg("priority") = 1, py::kw_only(),
+      py::arg("at") = py::none(), py::arg("parameters") = py::none(),
+      "Requests a task, which must be requestable. `priority`: 1 or higher; higher is stronger.\n"
+      "`at`: seconds on the clock; None: now. `parameters`: None: the task keeps those that it\n"
+      "has.");
   type.def("stop", &stop, py::arg("task"), py::kw_only(), py::arg("priority") = py::none(),
            py::arg("at") = py::none(),
            "Stops a task. `priority`: 0 or higher; None: that of its request.");
@@ -382,6 +403,20 @@ void bind_state(py::class_<PythonCoordinator>& type) {
         });
       },
       "The running tasks that have a request, each with its priority; 0: it started by itself.");
+  type.def_property_readonly(
+      "suspended",
+      [](PythonCoordinator& of) {
+        return with_session(of, [](Session& session) {
+          const Catalog& catalog = *session.catalog();
+          py::dict made;
+          for (const TaskId task : catalog.compiled->task_ids) {
+            if (!session.state().is_suspended(task)) continue;
+            made[name_of_task(catalog, task)] = session.state().find_own_request(task)->priority;
+          }
+          return made;
+        });
+      },
+      "The tasks that do not run, but whose request is suspended, each with its priority.");
   type.def_property_readonly("queue", &queue_of_session,
                              "The reactive tasks that will start by themselves, each with its due "
                              "time in seconds; None: it waits for a change of its group.");
@@ -399,6 +434,13 @@ void bind_state(py::class_<PythonCoordinator>& type) {
             of, [](const State& state, BehaviorId behavior) { return state.is_faulty(behavior); });
       },
       "The faulty behaviors in catalog order.");
+  type.def_property_readonly(
+      "failed",
+      [](PythonCoordinator& of) {
+        return behaviors_that(
+            of, [](const State& state, BehaviorId behavior) { return state.has_failed(behavior); });
+      },
+      "The behaviors that have failed, and are not tried again at any event, in catalog order.");
   type.def_property_readonly(
       "unavailable",
       [](PythonCoordinator& of) {

@@ -81,8 +81,8 @@ void bind_change(py::module_& module) {
                              "The tasks that it performs from now on, or performed until now.");
   type.def_property_readonly(
       "cause", [](const PythonChange& change) { return to_str(name_of(change.part.cause)); },
-      "'requested', 'reactive', 'required', 'replaced', 'displaced', 'released', 'restarted' or\n"
-      "'undone'.");
+      "'requested', 'resumed', 'reactive', 'required', 'replaced', 'displaced', 'released',\n"
+      "'restarted' or 'undone'.");
   type.def_property_readonly(
       "priority", [](const PythonChange& change) { return optional_int(change.part.priority); },
       "The highest of the requests of its tasks; None: there is none.");

@@ -14,6 +14,7 @@
 #include "cbc/event.h"
 #include "cbc/units.h"
 #include "runtime/base/id.h"
+#include "runtime/compiled/task_rules.h"
 
 /// A catalog as the solver, the coordinator and all reports use it: flat arrays of numbers, which
 /// stand in compiled files as they are in memory. Their meaning: docs/semantics.md, "Catalog".
@@ -158,6 +159,12 @@ struct FittingValue {
   [[nodiscard]] auto operator<=>(const FittingValue&) const = default;
 };
 
+/// Tasks of which at most so many run at a time, two or more; those of which one runs are cliques.
+struct CompiledLimit {
+  std::uint32_t most = 0;
+  std::uint32_t line = 0;  ///< of its list
+};
+
 /// The arrays of a catalog: views of arrays in CompiledCatalog, vectors in GrowingCatalog. Most of
 /// them follow from the others; see compiled/derive.h.
 template <template <typename> class List, template <typename> class ListOfRows>
@@ -206,6 +213,14 @@ struct CatalogArrays {
   List<CompiledVariable> variables;
   List<TextId> variable_values;
   List<FittingValue> fitting_values;  ///< ascending
+
+  List<TaskRules> task_rules;         ///< by task; empty if all are as in TaskRules
+  List<Retry> retries;                ///< by behavior; empty if all are at_events
+  List<std::uint32_t> improve_lines;  ///< by task, where there are rules: that of its `improve`
+  List<std::uint32_t> retry_lines;    ///< by behavior, where there are retries
+  List<CompiledLimit> limits;
+  ListOfRows<TaskId> limited;             ///< by limit: its tasks
+  ListOfRows<std::uint32_t> task_limits;  ///< by task: the limits that it is in
 };
 
 /// References to all arrays, in the order of compiled files: of rows the items, and then the
@@ -222,7 +237,10 @@ template <typename Catalog>
                   catalog.behaviors, catalog.requirements.items, catalog.requirements.begin,
                   catalog.requirement_lines, catalog.performs.items, catalog.performs.begin,
                   catalog.cliques.items, catalog.cliques.begin, catalog.clique_lines, catalog.masks,
-                  catalog.variables, catalog.variable_values, catalog.fitting_values);
+                  catalog.variables, catalog.variable_values, catalog.fitting_values,
+                  catalog.task_rules, catalog.retries, catalog.improve_lines, catalog.retry_lines,
+                  catalog.limits, catalog.limited.items, catalog.limited.begin,
+                  catalog.task_limits.items, catalog.task_limits.begin);
 }
 
 template <typename T>
@@ -243,6 +261,21 @@ struct CompiledCatalog : CatalogArrays<View, Rows> {
     task_names = Texts(texts, 0, tasks.size());
     behavior_names = Texts(texts, tasks.size(), behaviors.size());
     file = texts[tasks.size() + behaviors.size()];
+  }
+
+  /// Whether the catalog has one of the keys that tasks, behaviors and lists need not have.
+  [[nodiscard]] bool has_further_keys() const {
+    return !task_rules.empty() || !retries.empty() || !limits.empty();
+  }
+  [[nodiscard]] TaskRules rules_of(TaskId task) const {
+    return task_rules.empty() ? TaskRules() : task_rules[task];
+  }
+  [[nodiscard]] Retry retry_of(BehaviorId behavior) const {
+    return retries.empty() ? Retry::at_events : retries[behavior];
+  }
+  /// The limits that a task is in.
+  [[nodiscard]] std::span<const std::uint32_t> limits_of(TaskId task) const {
+    return limits.empty() ? std::span<const std::uint32_t>() : task_limits[task];
   }
 
   [[nodiscard]] std::size_t group_count() const { return group_tasks.size() - 1; }

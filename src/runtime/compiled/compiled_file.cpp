@@ -92,6 +92,13 @@ Digest identity_of(const CompiledCatalog& catalog) {
     for (const TextId text : catalog.variable_values) bytes.add_text(catalog.texts[text]);
     bytes.add(catalog.fitting_values);
   }
+  // Nor do other keys change the digests of catalogs without them.
+  if (!catalog.task_rules.empty()) bytes.add(catalog.task_rules);
+  if (!catalog.retries.empty()) bytes.add(catalog.retries);
+  if (!catalog.limits.empty()) {
+    bytes.add(catalog.limits);
+    bytes.add(catalog.limited);
+  }
   return digest_of(bytes.text());
 }
 

@@ -59,7 +59,7 @@ inline constexpr std::size_t largest_compiled_file = std::size_t{1} << 30;
 [[nodiscard]] CompiledFileResult read_compiled(std::string_view content);
 
 /// The newest format, which is the one that is written.
-inline constexpr std::uint32_t newest_format = 2;
+inline constexpr std::uint32_t newest_format = 3;
 
 /// A file whose arrays lie in `bytes`, which begin at a multiple of 16. The arrays are readable and
 /// aligned, and the digest is right, but they are not verified, and the catalog has no names yet.

@@ -106,7 +106,12 @@ class Derivation {
     add_behavior_levels();
     add_performance_rules();
     add_topological_order();
-    add_task_cliques();
+    out_.task_cliques = rows_by_task(given_.cliques);
+    if (given_.limits.empty()) {
+      out_.task_limits.begin.clear();
+    } else {
+      out_.task_limits = rows_by_task(given_.limited);
+    }
     return std::nullopt;
   }
 
@@ -227,14 +232,16 @@ class Derivation {
                    [&](std::uint32_t place) { return by_level[place]; });
   }
 
-  void add_task_cliques() {
-    std::vector<std::uint32_t> clique_of;  // by place in the cliques
-    clique_of.reserve(given_.cliques.items.size());
-    for (std::uint32_t clique = 0; clique < given_.cliques.size(); ++clique) {
-      clique_of.insert(clique_of.end(), given_.cliques[clique].size(), clique);
+  /// The lists that each task is in.
+  [[nodiscard]] GrowingRows<std::uint32_t> rows_by_task(const Rows<TaskId>& lists) const {
+    std::vector<std::uint32_t> list_of;  // by place in the lists
+    list_of.reserve(lists.items.size());
+    for (std::uint32_t list = 0; list < lists.size(); ++list) {
+      list_of.insert(list_of.end(), lists[list].size(), list);
     }
-    out_.task_cliques = group_by(given_.cliques.items, task_count_, itself);
-    for (std::uint32_t& item : out_.task_cliques.items) item = clique_of[item];
+    GrowingRows<std::uint32_t> rows = group_by(lists.items, task_count_, itself);
+    for (std::uint32_t& item : rows.items) item = list_of[item];
+    return rows;
   }
 
   const CatalogArrays<View, Rows>& given_;

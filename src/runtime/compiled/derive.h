@@ -75,7 +75,7 @@ void derive_groups(GrowingCatalog& catalog, const DisjointSets& connected,
 /// - of tasks: minimum_performance;
 /// - values, in rank order: behavior and suitability;
 /// - requirements, by ascending task: task and minimum_performance;
-/// - cliques, with ascending tasks.
+/// - cliques and limited, with ascending tasks.
 ///
 /// The requirements are not cyclic.
 void derive_rest(GrowingCatalog& catalog);

@@ -67,6 +67,23 @@ template <>
 struct Stored<FittingValue> {
   using Type = flat::FittingValue;
 };
+template <>
+struct Stored<TaskRules> {
+  using Type = flat::TaskRules;
+};
+template <>
+struct Stored<Retry> {
+  using Type = std::uint8_t;
+};
+template <>
+struct Stored<CompiledLimit> {
+  using Type = flat::Limit;
+};
+
+/// As an item of a vector.
+template <typename T>
+using StoredItem = std::conditional_t<std::is_scalar_v<typename Stored<T>::Type>,
+                                      typename Stored<T>::Type, const typename Stored<T>::Type*>;
 
 template <typename T>
 constexpr bool is_stored_as_it_is =
@@ -98,7 +115,9 @@ class Encoder {
     file.ForceVectorAlignment(content.size(), 1, content_alignment);
     const auto stored = file.CreateVector(builder_.GetBufferPointer(), content.size());
     const flat::Digest digest = to_flat(digest_of(content));
-    flat::FinishFileBuffer(file, flat::CreateFile(file, newest_format, &digest, stored));
+    // The oldest format that can say it, so that robots with an older library can read it.
+    const std::uint32_t format = catalog_.has_further_keys() ? 3 : 2;
+    flat::FinishFileBuffer(file, flat::CreateFile(file, format, &digest, stored));
     return {reinterpret_cast<const char*>(file.GetBufferPointer()), file.GetSize()};
   }
 
@@ -106,9 +125,13 @@ class Encoder {
   static constexpr std::size_t margin = 4096;  ///< for what is around the arrays
 
   template <typename T>
-  [[nodiscard]] auto vector(std::span<const T> items) {
+  [[nodiscard]] flatbuffers::Offset<flatbuffers::Vector<StoredItem<T>>> vector(
+      std::span<const T> items) {
     static_assert(is_stored_as_it_is<T>);
     using Type = typename Stored<T>::Type;
+    // Of format 3 only what says something, so that files of format 2 stay as they were.
+    constexpr std::size_t arrays_of_format_2 = 37;
+    if (++arrays_ > arrays_of_format_2 && items.empty()) return {};
     is_too_large_ |= builder_.GetSize() + items.size_bytes() > largest_compiled_file - margin;
     if (is_too_large_) items = {};
     const auto* data = reinterpret_cast<const Type*>(items.data());
@@ -134,6 +157,7 @@ class Encoder {
 
   const CompiledCatalog& catalog_;
   flatbuffers::FlatBufferBuilder builder_;
+  std::size_t arrays_ = 0;
   bool is_too_large_ = false;
 };
 
@@ -209,10 +233,8 @@ class Decoder {
   /// empty.
   template <typename T, typename Items>
   [[nodiscard]] static bool take(const flatbuffers::Vector<Items>* items, std::span<const T>& to) {
-    using Type = typename Stored<T>::Type;
     static_assert(is_stored_as_it_is<T>);
-    static_assert(
-        std::is_same_v<Items, std::conditional_t<std::is_scalar_v<Type>, Type, const Type*>>);
+    static_assert(std::is_same_v<Items, StoredItem<T>>);
     if (items == nullptr || items->size() == 0) return true;
     if (!is_aligned(items->Data(), alignof(T))) return false;
     to = {reinterpret_cast<const T*>(items->Data()), items->size()};

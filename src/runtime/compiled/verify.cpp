@@ -57,6 +57,14 @@ Fault find_row_fault(std::string_view what, const Rows<T>& rows, std::size_t cou
   return std::nullopt;
 }
 
+/// Without limits nothing is said of them.
+Fault find_rows_of_limits_fault(const CompiledCatalog& catalog) {
+  if (!catalog.limits.empty()) {
+    return find_row_fault("limited", catalog.limited, catalog.limits.size());
+  }
+  return find_count_fault("limited_begin", catalog.limited.begin.size(), 0);
+}
+
 /// That rows lie in their arrays, and that there are as many entries as there is something to say
 /// of.
 Fault find_size_fault(const CompiledCatalog& catalog) {
@@ -73,6 +81,13 @@ Fault find_size_fault(const CompiledCatalog& catalog) {
         find_row_fault("values", catalog.values, tasks),
         find_row_fault("requirements", catalog.requirements, behaviors),
         find_row_fault("cliques", catalog.cliques, catalog.clique_lines.size()),
+        find_rows_of_limits_fault(catalog),
+        find_count_fault("task_rules", catalog.task_rules.size(),
+                         catalog.task_rules.empty() ? 0 : tasks),
+        find_count_fault("retries", catalog.retries.size(),
+                         catalog.retries.empty() ? 0 : behaviors),
+        find_count_fault("improve_lines", catalog.improve_lines.size(), catalog.task_rules.size()),
+        find_count_fault("retry_lines", catalog.retry_lines.size(), catalog.retries.size()),
         find_count_fault("behavior_packages", catalog.behavior_packages.size(), behaviors),
         find_count_fault("tasks_by_name", catalog.tasks_by_name.size(), tasks),
         find_count_fault("behaviors_by_name", catalog.behaviors_by_name.size(), behaviors),
@@ -291,19 +306,74 @@ Fault find_behavior_fault(const CompiledCatalog& catalog) {
   return std::nullopt;
 }
 
+/// Of the tasks of a list.
+Fault find_members_fault(const CompiledCatalog& catalog, std::string_view list,
+                         std::uint32_t number, std::span<const TaskId> members) {
+  if (members.size() < 2) {
+    return concat(list, " ", number, " has ", members.size(), " tasks, expected at least 2");
+  }
+  if (std::adjacent_find(members.begin(), members.end(), std::greater_equal()) != members.end()) {
+    return concat("the tasks of ", list, " ", number, " do not ascend");
+  }
+  if (members.back() >= catalog.tasks.size()) {
+    return concat(list, " ", number, " has task ", members.back(), " of ", catalog.tasks.size());
+  }
+  return std::nullopt;
+}
+
+Fault find_limit_fault(const CompiledCatalog& catalog) {
+  for (std::uint32_t number = 0; number < catalog.limits.size(); ++number) {
+    const std::uint32_t most = catalog.limits[number].most;
+    if (most < 2) return concat("limit ", number, " is ", most, ", expected 2 or more");
+    if (auto fault = find_members_fault(catalog, "limit", number, catalog.limited[number])) {
+      return fault;
+    }
+  }
+  return std::nullopt;
+}
+
+Fault find_rules_fault(const CompiledCatalog& catalog) {
+  const auto is_default = [](const TaskRules& rules) { return rules == TaskRules(); };
+  const auto is_idle = [](Retry retry) { return retry == Retry::at_events; };
+  if (!catalog.task_rules.empty() &&
+      std::all_of(catalog.task_rules.begin(), catalog.task_rules.end(), is_default)) {
+    return "the rules of tasks say nothing";
+  }
+  if (!catalog.retries.empty() &&
+      std::all_of(catalog.retries.begin(), catalog.retries.end(), is_idle)) {
+    return "the retries of behaviors say nothing";
+  }
+  for (TaskId id(0); id < catalog.task_rules.size(); ++id) {
+    const TaskRules& rules = catalog.task_rules[id];
+    if (rules.reactive_priority < 0 || rules.requestable > 1 || rules.resume > 1 ||
+        rules.unused != 0 || rules.improve > Improve::when_started) {
+      return concat("the rules of task ", id, " are out of range");
+    }
+    const CompiledTask& task = catalog.tasks[id];
+    if (rules.requestable == 0 && task.start_on_request != 0) {
+      return concat("task ", id, " starts only on request, which nobody can make");
+    }
+    if (rules.reactive_priority > 0 && task.reactive_start == 0) {
+      return concat("task ", id, " has a reactive priority, but does not start reactively");
+    }
+    if (rules.resume != 0 && (rules.requestable == 0 || task.reactive_start != 0 ||
+                              rules.improve == Improve::when_started)) {
+      return concat("task ", id, " cannot resume");
+    }
+  }
+  for (BehaviorId id(0); id < catalog.retries.size(); ++id) {
+    if (catalog.retries[id] > Retry::after_repair) {
+      return concat("behavior ", id, ": its retry is out of range");
+    }
+  }
+  return std::nullopt;
+}
+
 Fault find_clique_fault(const CompiledCatalog& catalog) {
   std::span<const TaskId> before;
   for (std::uint32_t clique = 0; clique < catalog.cliques.size(); ++clique) {
     const auto members = catalog.cliques[clique];
-    if (members.size() < 2) {
-      return concat("clique ", clique, " has ", members.size(), " tasks, expected at least 2");
-    }
-    if (std::adjacent_find(members.begin(), members.end(), std::greater_equal()) != members.end()) {
-      return concat("the tasks of clique ", clique, " do not ascend");
-    }
-    if (members.back() >= catalog.tasks.size()) {
-      return concat("clique ", clique, " has task ", members.back(), " of ", catalog.tasks.size());
-    }
+    if (auto fault = find_members_fault(catalog, "clique", clique, members)) return fault;
     if (!std::lexicographical_compare(before.begin(), before.end(), members.begin(),
                                       members.end())) {
       return concat("cliques ", clique - 1, " and ", clique, " are not in order");
@@ -418,7 +488,7 @@ Fault find_difference(const std::string& what, const Rows<T>& found,
   return find_difference(what, found.items, expected.items);
 }
 
-/// Tasks are connected by the behaviors that perform or require them, and by cliques.
+/// Tasks are connected by the behaviors that perform or require them, and by lists.
 Fault find_group_fault(const CompiledCatalog& catalog, GrowingCatalog& derived) {
   DisjointSets connected(catalog.tasks.size());
   const auto index_of = [&](TaskId task) { return catalog.tasks[task].catalog_index; };
@@ -440,6 +510,10 @@ Fault find_group_fault(const CompiledCatalog& catalog, GrowingCatalog& derived) 
   }
   for (std::uint32_t clique = 0; clique < catalog.cliques.size(); ++clique) {
     const auto members = catalog.cliques[clique];
+    for (const TaskId task : members) connected.join(index_of(members.front()), index_of(task));
+  }
+  for (std::uint32_t limit = 0; limit < catalog.limits.size(); ++limit) {
+    const auto members = catalog.limited[limit];
     for (const TaskId task : members) connected.join(index_of(members.front()), index_of(task));
   }
   derive_groups(derived, connected, tasks_of_behaviors);
@@ -477,7 +551,8 @@ Fault find_derived_fault(const CompiledCatalog& catalog) {
         find_difference("masks", catalog.masks, derived.masks),
         find_difference("incoming", catalog.incoming, derived.incoming),
         find_difference("topological_order", catalog.topological_order, derived.topological_order),
-        find_difference("task_cliques", catalog.task_cliques, derived.task_cliques)}) {
+        find_difference("task_cliques", catalog.task_cliques, derived.task_cliques),
+        find_difference("task_limits", catalog.task_limits, derived.task_limits)}) {
     if (fault) return fault;
   }
   return std::nullopt;
@@ -488,7 +563,8 @@ Fault find_derived_fault(const CompiledCatalog& catalog) {
 std::optional<std::string> find_fault(const CompiledCatalog& catalog) {
   for (const auto find_fault_of_part :
        {find_size_fault, find_text_fault, find_task_fault, find_value_fault, find_behavior_fault,
-        find_clique_fault, find_variable_fault, find_derived_fault}) {
+        find_clique_fault, find_limit_fault, find_rules_fault, find_variable_fault,
+        find_derived_fault}) {
     if (auto fault = find_fault_of_part(catalog)) return fault;
   }
   return std::nullopt;

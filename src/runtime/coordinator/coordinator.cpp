@@ -29,7 +29,10 @@ Coordinator::Coordinator(const CompiledCatalog& catalog, const CoordinatorOption
       problem_builder_(catalog, state_),
       transition_(catalog, state_, record_),
       solver_(catalog, options.search),
-      checker_(catalog) {}
+      checker_(catalog),
+      asked_(catalog),
+      needs_(catalog),
+      needs_of_others_(catalog) {}
 
 void Coordinator::begin(std::span<const Availability> situation,
                         std::span<const VariableValue> variables) {
@@ -43,6 +46,7 @@ void Coordinator::resume(const Snapshot& snapshot) {
   state_.restore(snapshot);
   lost_.clear();
   misfits_.clear();
+  to_reconsider_.clear();
   restart_count();
 }
 
@@ -65,10 +69,16 @@ Snapshot Coordinator::snapshot() const {
     }
     if (state_.is_denied(behavior)) snapshot.denied.push_back(behavior);
     if (state_.is_faulty(behavior)) snapshot.faulty.push_back(behavior);
+    if (state_.has_failed(behavior)) {
+      snapshot.failed.emplace_back(behavior, state_.failed_at(behavior));
+    }
   }
   snapshot.variables = state_.variables();
   for (const TaskId task : catalog_.task_ids) {
     if (state_.is_waiting(task)) snapshot.waiting.push_back(task);
+    if (state_.is_suspended(task)) {
+      snapshot.suspended.emplace_back(task, *state_.find_own_request(task));
+    }
   }
   for (const auto& [due, index] : state_.queue().entries()) {
     snapshot.queue.emplace_back(catalog_.task_ids[index], due);
@@ -103,7 +113,7 @@ Coordinator::Status Coordinator::settle() {
 std::optional<Microseconds> Coordinator::next_due() const {
   const Timers& timeouts = state_.timeouts();
   const Timers& queue = state_.queue();
-  if (!lost_.empty() || !misfits_.empty()) return now_;
+  if (!lost_.empty() || !misfits_.empty() || !to_reconsider_.empty()) return now_;
   if (timeouts.empty() && queue.empty()) return std::nullopt;
   if (timeouts.empty()) return queue.first_due();
   if (queue.empty()) return timeouts.first_due();
@@ -137,25 +147,33 @@ Coordinator::Status Coordinator::start_reactive(TaskId task) {
     return Status::ok;
   }
   open_record(Origin::reactive, Verb::start);
-  return start(task, 0, std::string_view{}, true);
+  return start(task, catalog_.rules_of(task).reactive_priority, std::string_view{}, true);
 }
 
 /// Whether a reactive task that is due may start. True does not promise it: that takes a search.
 bool Coordinator::may_start(TaskId task) const {
-  return !state_.is_running(task) && !state_.excludes_running_task(task) &&
-         state_.has_available_behavior(task);
+  return !state_.is_running(task) && !is_blocked(task) && state_.has_available_behavior(task);
+}
+
+bool Coordinator::is_blocked(TaskId task) const {
+  return state_.is_blocked(task, catalog_.rules_of(task).reactive_priority);
 }
 
 /// Handles what follows an event at the same instant: first the behaviors finish that a rollback
-/// could not activate again, then the active ones that no longer fit the situation.
+/// could not activate again, then the active ones that no longer fit the situation; then the groups
+/// are reconsidered in which more is possible.
 Coordinator::Status Coordinator::finish_pending() {
-  while (!lost_.empty() || !misfits_.empty()) {
+  while (!lost_.empty() || !misfits_.empty() || !to_reconsider_.empty()) {
     Status status = Status::ok;
     if (!lost_.empty()) {
       const BehaviorId behavior = lost_.back();
       lost_.pop_back();
       open_record(Origin::fault, Verb::finish);
       status = finish(behavior, FinishCause::process_failure);
+    } else if (misfits_.empty()) {
+      const GroupId group = to_reconsider_.back();
+      to_reconsider_.pop_back();
+      status = reconsider(group);
     } else {
       const BehaviorId behavior = catalog_.behavior_ids[misfits_.back()];
       misfits_.pop_back();
@@ -199,6 +217,8 @@ Coordinator::Status Coordinator::take(const Event& event) {
       return report();
     case Verb::wait:
       return report();
+    case Verb::reconsider:  // no event of a script
+      break;
   }
   return Status::ok;
 }
@@ -208,6 +228,7 @@ void Coordinator::open_record(Origin origin, Verb verb) {
   record_.changes.clear();
   record_.tasks_of_changes.clear();
   record_.stopped_tasks.clear();
+  record_.resumed_tasks.clear();
   record_.tasks_taken_over.clear();
   record_.objective.reset();
   record_.search = nullptr;
@@ -231,7 +252,7 @@ Coordinator::Status Coordinator::start(TaskId task, std::int32_t priority,
                                        bool is_reactive) {
   record_.task = task;
   record_.priority = priority;
-  const Request* const request = state_.find_request(task);
+  const Request* const request = state_.find_own_request(task);
   Trigger trigger;
   trigger.kind = Trigger::Kind::start;
   trigger.group = catalog_.tasks[task].group;
@@ -247,18 +268,69 @@ Coordinator::Status Coordinator::start(TaskId task, std::int32_t priority,
   } else if (request != nullptr) {
     trigger.parameters = request->parameters;
   }
+  if (!is_reactive) forgive(task);
   return coordinate(trigger);
+}
+
+/// Takes out of X the behaviors that are tried again when somebody starts a task that may need
+/// them, unless this is an attempt on what runs or may be needed: those that are not active after
+/// the event go back.
+void Coordinator::forgive(TaskId task) {
+  forgiven_.clear();
+  if (state_.failed_count() == 0) return;
+  const GroupId group = catalog_.tasks[task].group;
+  needs_.clear();
+  needs_.add(task);
+  needs_of_others_.clear();
+  for (TaskId other = catalog_.group_tasks[group]; other < catalog_.group_tasks[group + 1];
+       ++other) {
+    if (state_.is_running(other) && !excludes(task, other)) needs_of_others_.add(other);
+  }
+  for (BehaviorId behavior = catalog_.group_behaviors[group];
+       behavior < catalog_.group_behaviors[group + 1]; ++behavior) {
+    if (!state_.has_failed(behavior) || catalog_.retry_of(behavior) != Retry::when_started) {
+      continue;
+    }
+    bool is_needed = false;
+    bool is_used = false;
+    for (const ValueId value : catalog_.performs[behavior]) {
+      const TaskId one = catalog_.task_of(value);
+      is_needed |= needs_.has(one);
+      is_used |= state_.is_running(one) || needs_of_others_.has(one);
+    }
+    if (!is_needed || is_used) continue;
+    forgiven_.emplace_back(behavior, state_.failed_at(behavior));
+    state_.clear_failed(behavior);
+  }
+}
+
+/// To be called when the event is done.
+void Coordinator::end_forgiving() {
+  for (const auto& [behavior, time] : forgiven_) {
+    if (!state_.is_active(behavior) && !state_.has_failed(behavior)) {
+      state_.set_failed(behavior, time);
+    }
+  }
+  forgiven_.clear();
+}
+
+/// Whether two tasks exclude each other.
+bool Coordinator::excludes(TaskId a, TaskId b) const {
+  const auto of_a = catalog_.task_cliques[a];
+  const auto of_b = catalog_.task_cliques[b];
+  return a != b &&
+         std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end()) != of_a.end();
+}
+
+/// A behavior has failed: unless it is tried again at any event, it joins X.
+void Coordinator::note_failure(BehaviorId behavior) {
+  if (catalog_.retry_of(behavior) != Retry::at_events) state_.set_failed(behavior, now_);
 }
 
 Coordinator::Status Coordinator::stop(TaskId task, std::optional<std::int32_t> priority) {
   record_.task = task;
-  const Request* const request = state_.find_request(task);
+  const Request* const request = state_.find_own_request(task);
   record_.priority = priority.value_or(request != nullptr ? request->priority : 0);
-  if (!state_.is_running(task)) {
-    state_.dequeue(task);
-    state_.set_waiting(task, false);
-    return report();
-  }
   Trigger trigger;
   trigger.kind = Trigger::Kind::stop;
   trigger.group = catalog_.tasks[task].group;
@@ -267,7 +339,14 @@ Coordinator::Status Coordinator::stop(TaskId task, std::optional<std::int32_t> p
   if (request != nullptr && request->priority > record_.priority) {
     return reject_by_priority(trigger);
   }
-  return coordinate(trigger);
+  if (state_.is_running(task)) return coordinate(trigger);
+  state_.dequeue(task);
+  state_.set_waiting(task, false);
+  if (request != nullptr) {
+    state_.end_suspended_request(task);
+    record_.outcome = Outcome::accepted;
+  }
+  return report();
 }
 
 /// The task's own request has a higher priority than the event.
@@ -286,6 +365,9 @@ Coordinator::Status Coordinator::finish(BehaviorId behavior, FinishCause cause) 
   trigger.group = catalog_.group_of(behavior);
   trigger.behavior = behavior;
   trigger.cause = cause;
+  if (cause != FinishCause::goal_achieved && cause != FinishCause::situation_change) {
+    note_failure(behavior);
+  }
   return coordinate(trigger);
 }
 
@@ -296,12 +378,23 @@ Coordinator::Status Coordinator::change_situation(const Event& event) {
   find_affected(event);
   state_.change_situation(event.situation, event.variables);
   for (const auto& [behavior, was_available] : affected_) {
-    if (!was_available && state_.is_available(behavior)) enqueue_group(catalog_.group_of(behavior));
+    if (!was_available && state_.is_available(behavior)) make_possible(behavior);
     if (!state_.is_active(behavior) || state_.fits(behavior)) continue;
     misfits_.push_back(catalog_.behaviors[behavior].catalog_index);
   }
   std::sort(misfits_.begin(), misfits_.end(), std::greater());
+  cause_of_reconsidering_ = Origin::situation;
   return report();
+}
+
+/// A behavior has become available, or need no longer fail: reactive tasks of its group are queued,
+/// and the group is to be decided anew.
+void Coordinator::make_possible(BehaviorId behavior) {
+  const GroupId group = catalog_.group_of(behavior);
+  enqueue_group(group);
+  const auto place =
+      std::lower_bound(to_reconsider_.begin(), to_reconsider_.end(), group, std::greater());
+  if (place == to_reconsider_.end() || *place != group) to_reconsider_.insert(place, group);
 }
 
 void Coordinator::find_affected(const Event& event) {
@@ -317,9 +410,44 @@ void Coordinator::find_affected(const Event& event) {
 
 void Coordinator::repair(BehaviorId behavior) {
   record_.behavior = behavior;
-  if (!state_.is_faulty(behavior)) return;
+  if (!state_.is_faulty(behavior) && !state_.has_failed(behavior)) return;
   state_.set_faulty(behavior, false);
-  enqueue_group(catalog_.group_of(behavior));
+  state_.clear_failed(behavior);
+  make_possible(behavior);
+  cause_of_reconsidering_ = Origin::repair;
+}
+
+/// Decides a group anew if a task of it may improve at once, or waits to be resumed
+/// (docs/semantics.md, "Reconsidering").
+Coordinator::Status Coordinator::reconsider(GroupId group) {
+  bool has_reason = false;
+  for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
+    has_reason |= state_.is_suspended(task) || may_improve(task);
+  }
+  if (!has_reason) return Status::ok;
+  open_record(cause_of_reconsidering_, Verb::reconsider);
+  Trigger trigger;
+  trigger.kind = Trigger::Kind::reconsider;
+  trigger.group = group;
+  return coordinate(trigger);
+}
+
+bool Coordinator::may_improve(TaskId task) const {
+  return state_.is_running(task) && catalog_.rules_of(task).improve == Improve::at_once;
+}
+
+/// Whether a solution resumes a task, or gives one a better behavior that may improve at once.
+bool Coordinator::improves(GroupId group) const {
+  const TaskId first = catalog_.group_tasks[group];
+  for (TaskId task = first; task < first + solution_.size(); ++task) {
+    const std::uint32_t index = solution_[task - first];
+    if (index == none) continue;
+    if (state_.is_suspended(task)) return true;
+    if (!may_improve(task)) continue;
+    const auto values = catalog_.values[task];
+    if (values[index].suitability > values[state_.value_index(task)].suitability) return true;
+  }
+  return false;
 }
 
 // Coordination.
@@ -331,6 +459,17 @@ Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
   for (;;) {
     const Problem* const problem = options_.measure_time ? timed_search(trigger) : search(trigger);
     if (problem == nullptr) return reject(trigger);
+    if (trigger.is_unasked() &&
+        asked_.is_worse(catalog_.group_tasks[trigger.group], *problem, solution_)) {
+      search_.result.status = SearchStatus::infeasible;
+      search_.makes_worse = true;
+      return reject(trigger);
+    }
+    if (trigger.kind == Trigger::Kind::reconsider && problem_builder_.excluded().empty() &&
+        !improves(trigger.group)) {
+      --record_.index;
+      return Status::ok;
+    }
     if (const auto violation = checker_.find_violation(*problem, solution_)) {
       internal_error_ = describe_refusal(*violation);
       return Status::refused_answer;
@@ -339,9 +478,11 @@ Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
     if (!failed) {
       listener_.on_decision(record_, circumstances_of(trigger, problem), &solution_);
       accept(trigger, *problem);
+      end_forgiving();
       return report();
     }
     problem_builder_.exclude(*failed);
+    note_failure(*failed);
   }
 }
 
@@ -371,6 +512,7 @@ const Problem* Coordinator::search(const Trigger& trigger) {
   if (is_first) {
     search_.result = {};
     search_.elapsed.reset();
+    search_.makes_worse = false;
   }
   record_.search = &search_;
   search_.group = trigger.group;
@@ -467,13 +609,15 @@ void Coordinator::accept(const Trigger& trigger, const Problem& problem) {
   const TaskId end = catalog_.group_tasks[trigger.group + 1];
   std::uint32_t elsewhere = state_.request_count();
   for (TaskId task = first; task < end; ++task) {
-    if (state_.has_request(task)) --elsewhere;
+    if (state_.is_counted(task)) --elsewhere;
   }
   ObjectiveValues& objective = record_.objective.emplace();
-  objective.requests = elsewhere + static_cast<std::uint32_t>(problem.requests.size());
+  objective.requests = elsewhere + static_cast<std::uint32_t>(problem.counted_requests().size());
   objective.changes = transition_.count_changes();
   assign(trigger);
-  objective.satisfied = state_.request_count();
+  // Requests that waited are not counted.
+  objective.satisfied =
+      state_.request_count() - static_cast<std::uint32_t>(record_.resumed_tasks.size());
   objective.idle_total = state_.idle_total();
   objective.idle_running = state_.idle_running();
   update_timeouts(trigger.group);
@@ -496,6 +640,8 @@ Coordinator::Status Coordinator::reject(const Trigger& trigger) {
   // In reverse, as the last one finishes next.
   const std::vector<BehaviorId>& lost = transition_.roll_back(now_);
   lost_.insert(lost_.end(), lost.rbegin(), lost.rend());
+  for (const BehaviorId behavior : lost) note_failure(behavior);
+  end_forgiving();
   update_timeouts(trigger.group);
   if (!is_silent) return report();
   --record_.index;
@@ -507,8 +653,9 @@ Coordinator::Status Coordinator::reject(const Trigger& trigger) {
 bool Coordinator::note_waiting(const Trigger& trigger) {
   if (!trigger.is_reactive) return false;
   const bool was_waiting = state_.is_waiting(trigger.task);
-  state_.set_waiting(trigger.task, true);
-  return was_waiting && record_.changes.empty();
+  const bool has_tried = !record_.changes.empty();
+  state_.set_waiting(trigger.task, trigger.is_unasked() || !has_tried);
+  return was_waiting && !has_tried;
 }
 
 /// Whether the behavior, which may be none, was active before the event and goes on.
@@ -528,15 +675,17 @@ void Coordinator::assign(const Trigger& trigger) {
     std::optional<std::int32_t> priority;
     if (const Request* const request = state_.find_request(task)) priority = request->priority;
     const bool has_finished = problem_builder_.has_finished(task);
-    state_.set_value(task, solution_[task - first], now_);
+    const bool resumes = state_.is_suspended(task);
+    state_.set_value(task, solution_[task - first], now_, is_suspended_by(trigger, task));
     if (was_active(state_.behavior(task))) record_.tasks_taken_over.push_back(task);
     if (was_running == state_.is_running(task)) continue;
     if (!was_running) {
       started_.push_back(task);
+      if (resumes && task != trigger.task) record_.resumed_tasks.push_back(task);
       continue;
     }
-    record_.stopped_tasks.push_back(
-        {task, has_finished ? trigger.cause : FinishCause::interrupted, has_finished, priority});
+    record_.stopped_tasks.push_back({task, has_finished ? trigger.cause : FinishCause::interrupted,
+                                     has_finished, state_.is_suspended(task), priority});
     const bool is_own_end =
         has_finished ? trigger.cause != FinishCause::situation_change : task == trigger.task;
     if (!is_own_end) stopped_by_others_.push_back(task);
@@ -544,6 +693,13 @@ void Coordinator::assign(const Trigger& trigger) {
   if (trigger.kind == Trigger::Kind::start) {
     state_.set_request(trigger.task, trigger.priority, record_.index, trigger.parameters, now_);
   }
+}
+
+/// Whether a task that stops keeps its request: not where somebody stops a task, nor where its
+/// behavior has succeeded or failed.
+bool Coordinator::is_suspended_by(const Trigger& trigger, TaskId task) const {
+  if (catalog_.rules_of(task).resume == 0 || trigger.kind == Trigger::Kind::stop) return false;
+  return !problem_builder_.has_finished(task) || trigger.cause == FinishCause::situation_change;
 }
 
 void Coordinator::update_timeouts(GroupId group) {
@@ -565,7 +721,7 @@ void Coordinator::update_queue() {
 void Coordinator::retry_waiting(GroupId group) {
   for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
     if (!state_.is_waiting(task)) continue;
-    if (state_.is_running(task) || state_.excludes_running_task(task)) {
+    if (state_.is_running(task) || is_blocked(task)) {
       state_.set_waiting(task, false);
     } else {
       enqueue_if_reactive(task);
@@ -578,18 +734,30 @@ void Coordinator::enqueue_if_reactive(TaskId task) {
 }
 
 void Coordinator::enqueue_rivals(TaskId task) {
-  for (const std::uint32_t clique : catalog_.task_cliques[task]) {
-    for (const TaskId rival : catalog_.cliques[clique]) {
-      if (rival != task) enqueue_if_reactive(rival);
-    }
-  }
+  for_each_rival(task, [this](TaskId rival) { enqueue_if_reactive(rival); });
 }
 
+/// A task that runs leaves the queue, and so do those for which its lists leave no place.
 void Coordinator::dequeue_with_rivals(TaskId task) {
   state_.dequeue(task);
+  for_each_rival(task, [this, task](TaskId rival) {
+    const std::int32_t priority = catalog_.rules_of(rival).reactive_priority;
+    if (state_.is_blocked_by(rival, priority, task)) state_.dequeue(rival);
+  });
+}
+
+/// The other tasks of its exclusivity lists.
+template <typename Visit>
+void Coordinator::for_each_rival(TaskId task, const Visit& visit) {
+  const auto visit_list = [&](std::span<const TaskId> list) {
+    for (const TaskId rival : list) {
+      if (rival != task) visit(rival);
+    }
+  };
   for (const std::uint32_t clique : catalog_.task_cliques[task]) {
-    for (const TaskId rival : catalog_.cliques[clique]) state_.dequeue(rival);
+    visit_list(catalog_.cliques[clique]);
   }
+  for (const std::uint32_t limit : catalog_.limits_of(task)) visit_list(catalog_.limited[limit]);
 }
 
 void Coordinator::enqueue_group(GroupId group) {

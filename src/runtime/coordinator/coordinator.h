@@ -11,11 +11,13 @@
 #include "cbc/event.h"
 #include "cbc/units.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/may_need.h"
 #include "runtime/coordinator/problem_builder.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
 #include "runtime/coordinator/transition.h"
 #include "runtime/solver/checker.h"
+#include "runtime/solver/objective.h"
 #include "runtime/solver/solver.h"
 
 namespace cbc {
@@ -98,6 +100,7 @@ class Coordinator {
   Status start_reactive(TaskId task);
   Status finish_pending();
   [[nodiscard]] bool may_start(TaskId task) const;
+  [[nodiscard]] bool is_blocked(TaskId task) const;
 
   void open_record(Origin origin, Verb verb);
   Status report();
@@ -111,6 +114,15 @@ class Coordinator {
   Status change_situation(const Event& event);
   void find_affected(const Event& event);
   void repair(BehaviorId behavior);
+  void make_possible(BehaviorId behavior);
+  Status reconsider(GroupId group);
+  [[nodiscard]] bool may_improve(TaskId task) const;
+  [[nodiscard]] bool improves(GroupId group) const;
+
+  void note_failure(BehaviorId behavior);
+  void forgive(TaskId task);
+  void end_forgiving();
+  [[nodiscard]] bool excludes(TaskId a, TaskId b) const;
 
   Status coordinate(const Trigger& trigger);
   [[nodiscard]] const Problem* search(const Trigger& trigger);
@@ -126,12 +138,15 @@ class Coordinator {
   bool note_waiting(const Trigger& trigger);
   [[nodiscard]] bool was_active(BehaviorId behavior) const;
   void assign(const Trigger& trigger);
+  [[nodiscard]] bool is_suspended_by(const Trigger& trigger, TaskId task) const;
   void update_timeouts(GroupId group);
   void update_queue();
   void retry_waiting(GroupId group);
   void enqueue_if_reactive(TaskId task);
   void enqueue_rivals(TaskId task);
   void dequeue_with_rivals(TaskId task);
+  template <typename Visit>
+  void for_each_rival(TaskId task, const Visit& visit);
   void enqueue_group(GroupId group);
 
   const CompiledCatalog& catalog_;
@@ -144,6 +159,9 @@ class Coordinator {
   Transition transition_;
   Solver solver_;
   Checker checker_;
+  AskedProduct asked_;
+  MayNeed needs_;
+  MayNeed needs_of_others_;
   Assignment solution_;
   std::vector<TaskId> started_;
   std::vector<TaskId> stopped_by_others_;  ///< not by their own stop or end: see update_queue
@@ -152,6 +170,11 @@ class Coordinator {
   std::vector<BehaviorId> lost_;  ///< of a failed rollback; the last one finishes next
   /// Active behaviors that may no longer fit, by catalog index; the last one is checked next.
   std::vector<std::uint32_t> misfits_;
+  /// Out of X for the present event, and when they failed.
+  std::vector<std::pair<BehaviorId, Microseconds>> forgiven_;
+  /// Groups in which more has become possible, descending.
+  std::vector<GroupId> to_reconsider_;
+  Origin cause_of_reconsidering_ = Origin::situation;
   Microseconds now_ = 0;
   std::uint64_t clock_events_ = 0;
   std::string internal_error_;

@@ -9,6 +9,7 @@
 
 #include "cbc/event.h"
 #include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/may_need.h"
 #include "runtime/coordinator/state.h"
 #include "runtime/solver/problem.h"
 
@@ -16,7 +17,7 @@ namespace cbc {
 
 /// An event that needs a new assignment.
 struct Trigger {
-  enum class Kind : std::uint8_t { start, stop, finish };
+  enum class Kind : std::uint8_t { start, stop, finish, reconsider };
   Kind kind = Kind::start;
   GroupId group;
   TaskId task = none;          ///< of start and stop
@@ -24,8 +25,11 @@ struct Trigger {
   FinishCause cause = FinishCause::goal_achieved;
   std::int32_t priority = 0;    ///< of start and stop
   Microseconds time = 0;        ///< of start: that of the request
-  bool is_reactive = false;     ///< a start that may not stop a task with a request
+  bool is_reactive = false;     ///< a start that may not stop a task with a request as high
   std::string_view parameters;  ///< that the task will have
+
+  /// A reactive start that nobody asked for: suspended requests stay so.
+  [[nodiscard]] bool is_unasked() const { return is_reactive && priority == 0; }
 };
 
 /// What was decided, while the state is still the one before the answer, but for what is active.
@@ -41,7 +45,8 @@ struct Circumstances {
 };
 
 /// Whether a running task may not stop: its request has a higher priority than the protection level
-/// or, where the trigger is a reactive start, it has a request (docs/semantics.md, "Protection").
+/// or, where the trigger is a reactive start, as high a priority; where a group is reconsidered,
+/// one that counts (docs/semantics.md, "Protection").
 [[nodiscard]] bool is_protected(const State& state, const Trigger& trigger, TaskId task,
                                 std::int32_t protection);
 
@@ -83,6 +88,9 @@ class ProblemBuilder {
   void add_present_value(TaskId task);
   void restrict_domain(TaskId task, std::int32_t protection);
   void remove_excluded();
+  void keep_from_improving(TaskId task);
+  void keep_what_was_not_asked_for();
+  void remove_better(TaskId task);
 
   [[nodiscard]] std::uint64_t& word_of(TaskId task, std::uint32_t index);
   void empty_domain(TaskId task);
@@ -94,6 +102,7 @@ class ProblemBuilder {
   TaskId end_task_;
   std::int32_t first_protection_ = 0;
   std::vector<BehaviorId> excluded_;
+  MayNeed may_need_;
   std::vector<std::uint8_t> is_listed_;  ///< by behavior of the group
   Problem problem_;
 };

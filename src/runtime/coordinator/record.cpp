@@ -15,12 +15,12 @@ constexpr auto verbs = []() {
 constexpr std::array<std::string_view, 6> finish_causes{"goal_achieved",   "time_out",
                                                         "wrong_progress",  "situation_change",
                                                         "process_failure", "interrupted"};
-constexpr std::array<std::string_view, 5> origins{"script", "timeout", "reactive", "fault",
-                                                  "situation"};
+constexpr std::array<std::string_view, 6> origins{"script", "timeout",   "reactive",
+                                                  "fault",  "situation", "repair"};
 constexpr std::array<std::string_view, 3> outcomes{"accepted", "rejected", "unchanged"};
-constexpr std::array<std::string_view, 8> change_causes{"requested", "reactive",  "required",
-                                                        "replaced",  "displaced", "released",
-                                                        "restarted", "undone"};
+constexpr std::array<std::string_view, 9> change_causes{"requested", "resumed",   "reactive",
+                                                        "required",  "replaced",  "displaced",
+                                                        "released",  "restarted", "undone"};
 constexpr std::array<std::string_view, 4> search_statuses{"optimal", "feasible", "infeasible",
                                                           "unknown"};
 

@@ -37,7 +37,7 @@ struct VerbForm {
 };
 
 /// In the order of the enumerators.
-inline constexpr std::array<VerbForm, 7> verb_forms{
+inline constexpr std::array<VerbForm, 8> verb_forms{
     {{.name = "start",
       .subject = VerbForm::SubjectKind::task,
       .has_priority = true,
@@ -55,11 +55,19 @@ inline constexpr std::array<VerbForm, 7> verb_forms{
      {.name = "situation", .subject = VerbForm::SubjectKind::situation},
      {.name = "fault", .subject = VerbForm::SubjectKind::behavior},
      {.name = "repair", .subject = VerbForm::SubjectKind::behavior},
-     {.name = "wait"}}};
-static_assert(verb_forms.size() == static_cast<std::size_t>(Verb::wait) + 1);
+     {.name = "wait"},
+     {.name = "reconsider", .is_decided = true}}};
+static_assert(verb_forms.size() == static_cast<std::size_t>(Verb::reconsider) + 1);
+/// The verbs of scripts and streams.
+inline constexpr std::span<const VerbForm> scripted_verbs(verb_forms.data(), verb_forms.size() - 1);
 
 [[nodiscard]] constexpr const VerbForm& form_of(Verb verb) {
   return verb_forms[static_cast<std::size_t>(verb)];
+}
+
+[[nodiscard]] constexpr bool is_scripted_verb(std::string_view word) {
+  return std::any_of(scripted_verbs.begin(), scripted_verbs.end(),
+                     [word](const VerbForm& form) { return form.name == word; });
 }
 
 using Words = std::span<const std::string_view>;
@@ -70,6 +78,10 @@ template <typename Enum>
 [[nodiscard]] Words words_of() = delete;
 template <>
 Words words_of<Verb>();
+/// Those of scripts.
+[[nodiscard]] inline Words scripted_verb_words() {
+  return words_of<Verb>().first(scripted_verbs.size());
+}
 template <>
 Words words_of<FinishCause>();
 template <>
@@ -124,6 +136,7 @@ struct StoppedTask {
   TaskId task;
   FinishCause cause = FinishCause::interrupted;
   bool has_finished = false;             ///< by the finish of its behavior
+  bool is_suspended = false;             ///< its request waits
   std::optional<std::int32_t> priority;  ///< of its request before the event, if it had one
 };
 
@@ -131,7 +144,8 @@ struct SearchRecord {
   SearchResult result;  ///< status of the last search; counts over all searches of the event
   GroupId group;
   std::int32_t protection = 0;
-  bool is_escalated = false;                ///< the first protection level had no solution
+  bool is_escalated = false;  ///< the first protection level had no solution
+  bool makes_worse = false;   ///< the only solutions make what was asked for worse, and are none
   std::vector<std::uint32_t> domain_sizes;  ///< their product is the search space
   /// The time of all searches of the event and of building their problems; empty unless measured.
   std::optional<std::chrono::nanoseconds> elapsed;
@@ -152,6 +166,7 @@ struct EventRecord {
   std::vector<Change> changes;
   std::vector<TaskId> tasks_of_changes;
   std::vector<StoppedTask> stopped_tasks;
+  std::vector<TaskId> resumed_tasks;  ///< those that run, and whose request was suspended
   /// Tasks with another behavior than before, which was active already: no change tells of them.
   std::vector<TaskId> tasks_taken_over;
   std::optional<ObjectiveValues> objective;

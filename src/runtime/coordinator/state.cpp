@@ -2,15 +2,20 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "runtime/base/text.h"
 #include "runtime/solver/checker.h"
 
 namespace cbc {
 
-Timers::Timers(std::size_t items) : position_(items, absent) { heap_.reserve(items); }
+Timers::Timers(std::size_t items, std::vector<std::uint32_t> ranks)
+    : position_(items, absent), ranks_(std::move(ranks)) {
+  heap_.reserve(items);
+}
 
 void Timers::set(Item item, Microseconds due) {
   if (!has(item)) {
@@ -40,14 +45,14 @@ void Timers::clear() {
   heap_.clear();
 }
 
-void Timers::put(std::uint32_t position, const std::pair<Microseconds, Item>& entry) {
+void Timers::put(std::uint32_t position, const Entry& entry) {
   heap_[position] = entry;
   position_[entry.second] = position;
 }
 
 void Timers::sift_up(std::uint32_t position) {
   const auto entry = heap_[position];
-  while (position > 0 && entry < heap_[(position - 1) / 2]) {
+  while (position > 0 && is_before(entry, heap_[(position - 1) / 2])) {
     put(position, heap_[(position - 1) / 2]);
     position = (position - 1) / 2;
   }
@@ -59,8 +64,8 @@ void Timers::sift_down(std::uint32_t position) {
   for (;;) {
     std::uint32_t child = 2 * position + 1;
     if (child >= heap_.size()) break;
-    if (child + 1 < heap_.size() && heap_[child + 1] < heap_[child]) ++child;
-    if (entry <= heap_[child]) break;
+    if (child + 1 < heap_.size() && is_before(heap_[child + 1], heap_[child])) ++child;
+    if (!is_before(heap_[child], entry)) break;
     put(position, heap_[child]);
     position = child;
   }
@@ -74,14 +79,37 @@ Microseconds timeout_of(const CompiledCatalog& catalog, TaskId task, BehaviorId 
   return own > 0 ? own : compiled.timeout;
 }
 
+namespace {
+
+/// Of reactive starts that are due together those of a higher priority come first, then those that
+/// are earlier in the catalog. By catalog index; empty if all have the same priority.
+std::vector<std::uint32_t> ranks_of_reactions(const CompiledCatalog& catalog) {
+  if (catalog.task_rules.empty()) return {};
+  std::vector<std::uint32_t> order(catalog.tasks.size());
+  std::iota(order.begin(), order.end(), 0U);
+  const auto priority_of = [&](std::uint32_t index) {
+    return catalog.task_rules[catalog.task_ids[index]].reactive_priority;
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return priority_of(a) > priority_of(b);
+  });
+  std::vector<std::uint32_t> ranks(order.size());
+  for (std::uint32_t rank = 0; rank < order.size(); ++rank) ranks[order[rank]] = rank;
+  return ranks;
+}
+
+}  // namespace
+
 State::State(const CompiledCatalog& catalog)
     : catalog_(catalog),
       assignment_(catalog.tasks.size(), none),
       taken_at_(catalog.tasks.size(), 0),
-      has_request_(catalog.tasks.size(), 0),
+      request_states_(catalog.tasks.size(), RequestState::absent),
       requests_(catalog.tasks.size()),
       running_((catalog.tasks.size() + 63) / 64, 0),
       denied_(catalog.behaviors.size(), 0),
+      failed_(catalog.behaviors.size(), 0),
+      failed_at_(catalog.behaviors.size(), 0),
       misfits_(catalog.behaviors.size(), 0),
       available_words_(catalog.words.back(), 0),
       values_(catalog.variables.size(), 0),
@@ -90,7 +118,7 @@ State::State(const CompiledCatalog& catalog)
       active_(catalog.behaviors.size(), 0),
       activated_at_(catalog.behaviors.size(), 0),
       timeouts_(catalog.tasks.size()),
-      queue_(catalog.tasks.size()),
+      queue_(catalog.tasks.size(), ranks_of_reactions(catalog)),
       waiting_(catalog.tasks.size(), 0) {
   for (const CompiledTask& task : catalog.tasks) {
     if (!task.start_on_request) ++idle_total_;
@@ -112,8 +140,12 @@ State::State(const CompiledCatalog& catalog)
 
 void State::clear() {
   for (const std::uint32_t index : running()) set_value(catalog_.task_ids[index], none, 0);
+  for (TaskId task(0); suspended_count_ > 0; ++task) {
+    if (is_suspended(task)) end_suspended_request(task);
+  }
   for (BehaviorId behavior(0); behavior < catalog_.behaviors.size(); ++behavior) {
     if (is_denied(behavior)) set_denied(behavior, false);
+    clear_failed(behavior);
   }
   std::fill(faulty_.begin(), faulty_.end(), std::uint8_t{0});
   std::fill(active_.begin(), active_.end(), std::uint8_t{0});
@@ -142,9 +174,11 @@ void State::restore(const Snapshot& snapshot) {
   }
   for (const auto& [task, due] : snapshot.queue) enqueue(task, due);
   for (const TaskId task : snapshot.waiting) set_waiting(task, true);
+  for (const auto& [behavior, time] : snapshot.failed) set_failed(behavior, time);
+  for (const auto& [task, request] : snapshot.suspended) suspend_request(task, request);
 }
 
-void State::set_value(TaskId task, std::uint32_t index, Microseconds now) {
+void State::set_value(TaskId task, std::uint32_t index, Microseconds now, bool suspends) {
   if (assignment_[task] == index) return;
   const bool was_running = is_running(task);
   assignment_[task] = index;
@@ -155,10 +189,12 @@ void State::set_value(TaskId task, std::uint32_t index, Microseconds now) {
   running_[compiled.catalog_index / 64] ^= std::uint64_t{1} << (compiled.catalog_index % 64);
   if (was_running) {
     if (!compiled.start_on_request) --idle_running_;
-    if (has_request(task)) --request_count_;
-    has_request_[task] = 0;
+    if (has_request(task)) {
+      set_request_state(task, suspends ? RequestState::suspended : RequestState::absent);
+    }
   } else {
     if (!compiled.start_on_request) ++idle_running_;
+    if (is_suspended(task)) set_request_state(task, RequestState::active);
   }
 }
 
@@ -175,18 +211,47 @@ std::vector<std::uint32_t> State::running() const {
   return tasks;
 }
 
+void State::set_request_state(TaskId task, RequestState state) {
+  if (is_counted(task)) --request_count_;
+  if (is_suspended(task)) --suspended_count_;
+  request_states_[task] = state;
+  if (is_counted(task)) ++request_count_;
+  if (is_suspended(task)) ++suspended_count_;
+}
+
 void State::set_request(TaskId task, std::int32_t priority, std::uint64_t event,
                         std::string_view parameters, std::optional<Microseconds> time) {
-  if (!has_request(task)) ++request_count_;
-  has_request_[task] = 1;
+  set_request_state(task, RequestState::absent);
   requests_[task].priority = priority;
   requests_[task].event = event;
   requests_[task].parameters = parameters;
   requests_[task].time = time;
+  set_request_state(task, RequestState::active);
 }
+
+void State::suspend_request(TaskId task, const Request& request) {
+  requests_[task] = request;
+  set_request_state(task, RequestState::suspended);
+}
+
+void State::end_suspended_request(TaskId task) { set_request_state(task, RequestState::absent); }
 
 void State::set_denied(BehaviorId behavior, bool denied) {
   denied_[behavior] = denied ? 1 : 0;
+  update_available(behavior);
+}
+
+void State::set_failed(BehaviorId behavior, Microseconds time) {
+  if (!has_failed(behavior)) ++failed_count_;
+  failed_[behavior] = 1;
+  failed_at_[behavior] = time;
+  update_available(behavior);
+}
+
+void State::clear_failed(BehaviorId behavior) {
+  if (!has_failed(behavior)) return;
+  --failed_count_;
+  failed_[behavior] = 0;
   update_available(behavior);
 }
 
@@ -260,11 +325,38 @@ void State::set_waiting(TaskId task, bool waiting) {
   waiting ? ++waiting_count_ : --waiting_count_;
 }
 
-bool State::excludes_running_task(TaskId task) const {
-  for (const std::uint32_t clique : catalog_.task_cliques[task]) {
-    for (const TaskId other : catalog_.cliques[clique]) {
-      if (other != task && is_running(other)) return true;
-    }
+bool State::is_blocked(TaskId task, std::int32_t least) const {
+  const auto cliques = catalog_.task_cliques[task];
+  const auto limits = catalog_.limits_of(task);
+  return std::any_of(cliques.begin(), cliques.end(),
+                     [&](std::uint32_t clique) {
+                       return is_full(catalog_.cliques[clique], 1, task, least);
+                     }) ||
+         std::any_of(limits.begin(), limits.end(), [&](std::uint32_t limit) {
+           return is_full(catalog_.limited[limit], catalog_.limits[limit].most, task, least);
+         });
+}
+
+bool State::is_blocked_by(TaskId task, std::int32_t least, TaskId rival) const {
+  if (!counts_for(rival, least)) return false;
+  const auto has_rival = [rival](std::span<const TaskId> list) {
+    return std::binary_search(list.begin(), list.end(), rival);
+  };
+  const auto cliques = catalog_.task_cliques[task];
+  const auto limits = catalog_.limits_of(task);
+  return std::any_of(cliques.begin(), cliques.end(),
+                     [&](std::uint32_t clique) { return has_rival(catalog_.cliques[clique]); }) ||
+         std::any_of(limits.begin(), limits.end(), [&](std::uint32_t limit) {
+           return has_rival(catalog_.limited[limit]) &&
+                  is_full(catalog_.limited[limit], catalog_.limits[limit].most, task, least);
+         });
+}
+
+bool State::is_full(std::span<const TaskId> list, std::uint32_t most, TaskId task,
+                    std::int32_t least) const {
+  std::uint32_t running = 0;
+  for (const TaskId other : list) {
+    if (other != task && counts_for(other, least) && ++running == most) return true;
   }
   return false;
 }
@@ -289,6 +381,8 @@ class SnapshotCheck {
     check_repetitions(snapshot_.faulty, "faulty");
     for (const auto& [task, due] : snapshot_.queue) check_queued(task, due);
     for (const TaskId task : snapshot_.waiting) check_waiting(task);
+    for (const auto& [behavior, time] : snapshot_.failed) check_failed(behavior, time);
+    for (const auto& [task, request] : snapshot_.suspended) check_suspended(task, request);
     if (problem_.empty()) check_constraints();
     if (problem_.empty()) return std::nullopt;
     return std::move(problem_);
@@ -432,6 +526,35 @@ class SnapshotCheck {
     if (!waiting_.insert(task).second) refuse(concat("task ", name, " waits twice"));
   }
 
+  void check_failed(BehaviorId behavior, Microseconds time) {
+    const std::string name = quote(catalog_.name_of_behavior(behavior));
+    if (!failed_.insert(behavior).second) {
+      refuse(concat("behavior ", name, " is remembered as failed twice"));
+    }
+    if (!is_past(time)) {
+      refuse(concat("behavior ", name, " failed after the time of the state, or before 0"));
+    }
+    if (catalog_.retry_of(behavior) == Retry::at_events) {
+      refuse(concat("behavior ", name, " is remembered as failed, but is tried again"));
+    }
+    if (activated_at_[behavior] != never) {
+      refuse(concat("behavior ", name, " is remembered as failed, but active"));
+    }
+  }
+
+  void check_suspended(TaskId task, const Request& request) {
+    const std::string name = quote(catalog_.name_of_task(task));
+    if (catalog_.rules_of(task).resume == 0) {
+      refuse(concat("the request of ", name, " is suspended, but it does not resume"));
+    }
+    if (assignment_[task] != none) refuse(concat("the request of ", name, " waits, but it runs"));
+    if (request.priority < 1) refuse(concat("the request of ", name, " has no priority"));
+    if (!suspended_.insert(task).second) {
+      refuse(concat("the request of ", name, " is suspended twice"));
+    }
+    check_request(name, request);
+  }
+
   /// Checks the constraints as for an answer of the solver.
   void check_constraints() {
     Checker checker(catalog_);
@@ -454,6 +577,8 @@ class SnapshotCheck {
   std::set<std::uint64_t> events_;          ///< those of the requests
   std::set<TaskId> queued_;
   std::set<TaskId> waiting_;
+  std::set<TaskId> suspended_;
+  std::set<BehaviorId> failed_;
   std::string problem_;
 };
 

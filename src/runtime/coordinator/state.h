@@ -15,12 +15,14 @@
 namespace cbc {
 
 /// At most one due time for each of a fixed number of items; the earliest comes first, of equal
-/// ones the lowest item. An indexed binary heap, which allocates nothing after construction.
+/// ones the item of the lowest rank. An indexed binary heap, which allocates nothing after
+/// construction.
 class Timers {
  public:
   using Item = std::uint32_t;
 
-  explicit Timers(std::size_t items);
+  /// `ranks`: by item; empty: the items themselves are the ranks.
+  explicit Timers(std::size_t items, std::vector<std::uint32_t> ranks = {});
 
   void set(Item item, Microseconds due);
   void remove(Item item);
@@ -38,15 +40,22 @@ class Timers {
  private:
   static constexpr std::uint32_t absent = UINT32_MAX;
 
-  void put(std::uint32_t position, const std::pair<Microseconds, Item>& entry);
+  using Entry = std::pair<Microseconds, Item>;
+
+  [[nodiscard]] bool is_before(const Entry& a, const Entry& b) const {
+    if (ranks_.empty() || a.first != b.first) return a < b;
+    return ranks_[a.second] < ranks_[b.second];
+  }
+  void put(std::uint32_t position, const Entry& entry);
   void sift_up(std::uint32_t position);
   void sift_down(std::uint32_t position);
 
   std::vector<std::pair<Microseconds, Item>> heap_;
   std::vector<std::uint32_t> position_;  ///< by item: where it is in the heap
+  std::vector<std::uint32_t> ranks_;
 };
 
-/// The request of a running task.
+/// The request of a running task, or of one that it waits for.
 struct Request {
   std::int32_t priority = 0;
   std::uint64_t event = 0;  ///< number of the event that set it: a later one is more recent
@@ -85,28 +94,57 @@ class State {
 
   /// When a running task took its behavior.
   [[nodiscard]] Microseconds taken_at(TaskId task) const { return taken_at_[task]; }
-  /// Gives the task a value (a value index, or none). A task that stops loses its request.
-  void set_value(TaskId task, std::uint32_t index, Microseconds now);
+  /// Gives the task a value (a value index, or none). The request of a task that stops ends, or is
+  /// suspended; that of a task that runs again is active again.
+  void set_value(TaskId task, std::uint32_t index, Microseconds now, bool suspends = false);
 
-  // Requests.
+  // Requests: active ones, of running tasks, and suspended ones, of tasks that do not run.
 
-  [[nodiscard]] bool has_request(TaskId task) const { return has_request_[task] != 0; }
+  [[nodiscard]] bool has_request(TaskId task) const {
+    return request_states_[task] == RequestState::active;
+  }
+  [[nodiscard]] bool is_suspended(TaskId task) const {
+    return request_states_[task] == RequestState::suspended;
+  }
   [[nodiscard]] const Request& request(TaskId task) const { return requests_[task]; }
-  /// The request of a task, or null.
+  /// The active request of a task, or null.
   [[nodiscard]] const Request* find_request(TaskId task) const {
     return has_request(task) ? &requests_[task] : nullptr;
   }
+  /// The request of a task, active or suspended, or null.
+  [[nodiscard]] const Request* find_own_request(TaskId task) const {
+    return request_states_[task] == RequestState::absent ? nullptr : &requests_[task];
+  }
+  /// The number of active requests that f1 counts: those of priority 1 or more.
   [[nodiscard]] std::uint32_t request_count() const { return request_count_; }
+  [[nodiscard]] bool is_counted(TaskId task) const {
+    return has_request(task) && requests_[task].priority >= 1;
+  }
+  [[nodiscard]] std::uint32_t suspended_count() const { return suspended_count_; }
   /// The task must be running.
   void set_request(TaskId task, std::int32_t priority, std::uint64_t event,
                    std::string_view parameters, std::optional<Microseconds> time);
+  /// Suspends a request of a task that does not run.
+  void suspend_request(TaskId task, const Request& request);
+  /// Ends a suspended request.
+  void end_suspended_request(TaskId task);
 
   // Behaviors.
 
-  /// Whether the behavior can be activated: a script has not denied it, and the behavior fits.
+  /// Whether the behavior can be activated: a script has not denied it, the behavior fits, and it
+  /// has not failed, to be tried again only later.
   [[nodiscard]] bool is_available(BehaviorId behavior) const {
-    return !is_denied(behavior) && fits(behavior);
+    return !is_denied(behavior) && fits(behavior) && !has_failed(behavior);
   }
+  /// Whether the behavior is in X: it has failed, and is not tried again (docs/semantics.md,
+  /// "Remembered failures").
+  [[nodiscard]] bool has_failed(BehaviorId behavior) const { return failed_[behavior] != 0; }
+  /// When a behavior that is in X failed.
+  [[nodiscard]] Microseconds failed_at(BehaviorId behavior) const { return failed_at_[behavior]; }
+  void set_failed(BehaviorId behavior, Microseconds time);
+  void clear_failed(BehaviorId behavior);
+  /// The number of behaviors in X.
+  [[nodiscard]] std::uint32_t failed_count() const { return failed_count_; }
   /// A script said that the behavior cannot be activated.
   [[nodiscard]] bool is_denied(BehaviorId behavior) const { return denied_[behavior] != 0; }
   void set_denied(BehaviorId behavior, bool denied);
@@ -162,23 +200,40 @@ class State {
   void set_waiting(TaskId task, bool waiting);
   [[nodiscard]] std::uint32_t waiting_count() const { return waiting_count_; }
 
-  [[nodiscard]] bool excludes_running_task(TaskId task) const;
+  /// Whether exclusivity lists leave no place for a task that does not run. Of the running tasks
+  /// those count that have a request of priority `least` or more; where it is 0, all.
+  [[nodiscard]] bool is_blocked(TaskId task, std::int32_t least) const;
+  /// The same, by the lists with `rival` alone, which counts.
+  [[nodiscard]] bool is_blocked_by(TaskId task, std::int32_t least, TaskId rival) const;
 
  private:
+  enum class RequestState : std::uint8_t { absent, active, suspended };
+
+  void set_request_state(TaskId task, RequestState state);
+  [[nodiscard]] bool counts_for(TaskId task, std::int32_t least) const {
+    return is_running(task) &&
+           (least == 0 || (has_request(task) && requests_[task].priority >= least));
+  }
+  [[nodiscard]] bool is_full(std::span<const TaskId> list, std::uint32_t most, TaskId task,
+                             std::int32_t least) const;
   void clear();
   void update_available(BehaviorId behavior);
 
   const CompiledCatalog& catalog_;
-  std::vector<std::uint32_t> assignment_;  ///< by task
-  std::vector<Microseconds> taken_at_;     ///< by task: when it took its behavior
-  std::vector<std::uint8_t> has_request_;  ///< by task
-  std::vector<Request> requests_;          ///< by task
-  std::vector<std::uint64_t> running_;     ///< bit set of catalog indices
+  std::vector<std::uint32_t> assignment_;     ///< by task
+  std::vector<Microseconds> taken_at_;        ///< by task: when it took its behavior
+  std::vector<RequestState> request_states_;  ///< by task
+  std::vector<Request> requests_;             ///< by task
+  std::vector<std::uint64_t> running_;        ///< bit set of catalog indices
   std::uint32_t idle_running_ = 0;
   std::uint32_t idle_total_ = 0;
   std::uint32_t request_count_ = 0;
-  std::vector<std::uint8_t> denied_;    ///< by behavior
-  std::vector<std::uint32_t> misfits_;  ///< by behavior: the variables that have no fitting value
+  std::uint32_t suspended_count_ = 0;
+  std::vector<std::uint8_t> denied_;  ///< by behavior
+  std::vector<std::uint8_t> failed_;  ///< by behavior
+  std::uint32_t failed_count_ = 0;
+  std::vector<Microseconds> failed_at_;  ///< by behavior, where it is in X
+  std::vector<std::uint32_t> misfits_;   ///< by behavior: the variables that have no fitting value
   std::vector<std::uint64_t> available_words_;
   std::vector<std::uint32_t> values_;               ///< by variable
   std::vector<std::vector<FittingValue>> fitting_;  ///< by variable
@@ -210,6 +265,8 @@ struct Snapshot {
   std::vector<BehaviorId> denied;        ///< those that a script made unavailable
   std::vector<std::uint32_t> variables;  ///< the value of each
   std::vector<BehaviorId> faulty;
+  std::vector<std::pair<BehaviorId, Microseconds>> failed;  ///< those in X, with times; see State
+  std::vector<std::pair<TaskId, Request>> suspended;
   std::vector<std::pair<TaskId, Microseconds>> queue;  ///< with due times
   std::vector<TaskId> waiting;                         ///< reactive tasks: see State
 };

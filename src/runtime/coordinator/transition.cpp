@@ -170,8 +170,11 @@ void Transition::explain_activation(Change& change) const {
   for (const TaskId task : record_.tasks_of(change)) {
     const std::optional<std::int32_t> priority = priority_after(task);
     if (!priority) continue;
-    change.cause =
-        std::min(change.cause, *priority >= 1 ? ChangeCause::requested : ChangeCause::reactive);
+    const bool is_started = trigger_.kind == Trigger::Kind::start && task == trigger_.task;
+    ChangeCause cause = *priority >= 1 ? ChangeCause::requested : ChangeCause::reactive;
+    if (is_started && trigger_.is_reactive) cause = ChangeCause::reactive;
+    if (!is_started && state_.is_suspended(task)) cause = ChangeCause::resumed;
+    change.cause = std::min(change.cause, cause);
   }
 }
 
@@ -197,7 +200,8 @@ std::optional<std::int32_t> Transition::priority_before(TaskId task) const {
 /// The priority of a task that runs in the solution, after the event.
 std::optional<std::int32_t> Transition::priority_after(TaskId task) const {
   if (trigger_.kind == Trigger::Kind::start && task == trigger_.task) return trigger_.priority;
-  return priority_before(task);
+  const Request* const request = state_.find_own_request(task);
+  return request != nullptr ? std::optional(request->priority) : std::nullopt;
 }
 
 }  // namespace cbc

@@ -142,12 +142,16 @@ LiveStatus check_subject(const CompiledCatalog& catalog, const Event& event) {
 
 /// The first error of an event with arbitrary content, or ok. Looks only at what its verb uses.
 LiveStatus check_event(const CompiledCatalog& catalog, const Event& event) {
-  if (static_cast<std::size_t>(event.verb) >= verb_forms.size()) return LiveStatus::invalid_verb;
+  if (event.verb > Verb::wait) return LiveStatus::invalid_verb;
   const VerbForm& form = form_of(event.verb);
   const LiveStatus status = check_subject(catalog, event);
   if (status != LiveStatus::ok) return status;
   if (form.has_priority && event.priority && *event.priority < form.lowest_priority) {
     return LiveStatus::invalid_priority;
+  }
+  if (event.verb == Verb::start &&
+      catalog.rules_of(catalog.task_ids[event.subject]).requestable == 0) {
+    return LiveStatus::not_requestable;
   }
   if (form.has_parameters) return check_parameters(event);
   if (form.has_cause && event.cause > FinishCause::interrupted) return LiveStatus::invalid_cause;
@@ -232,7 +236,7 @@ void HandledEvents::add_change(const EventRecord& record, const Change& change) 
 
 std::uint32_t HandledEvents::subject_of(const EventRecord& record) const {
   if (record.behavior != none) return catalog_.behaviors[record.behavior].catalog_index;
-  if (record.verb == Verb::finish) return no_subject;
+  if (record.verb == Verb::finish || record.verb == Verb::reconsider) return no_subject;
   return record.task != none ? catalog_.tasks[record.task].catalog_index : 0;
 }
 
@@ -261,7 +265,7 @@ CoordinatorOptions to_internal(const LiveOptions& options) {
 }  // namespace
 
 std::string_view name_of(LiveStatus status) {
-  static constexpr std::array<std::string_view, 13> names{"ok",
+  static constexpr std::array<std::string_view, 14> names{"ok",
                                                           "invalid_time",
                                                           "invalid_verb",
                                                           "invalid_cause",
@@ -272,6 +276,7 @@ std::string_view name_of(LiveStatus status) {
                                                           "unknown_behavior",
                                                           "unknown_variable",
                                                           "unknown_value",
+                                                          "not_requestable",
                                                           "too_many_events",
                                                           "internal_error"};
   return names[static_cast<std::size_t>(status)];

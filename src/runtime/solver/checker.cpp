@@ -1,5 +1,7 @@
 #include "runtime/solver/checker.h"
 
+#include <algorithm>
+
 #include "runtime/base/text.h"
 
 namespace cbc {
@@ -8,6 +10,7 @@ Checker::Checker(const CompiledCatalog& catalog)
     : catalog_(catalog),
       clique_marks_(catalog.cliques.size(), 0),
       clique_holders_(catalog.cliques.size()),
+      running_(catalog.limits.size()),
       closure_marks_(catalog.tasks.size(), 0) {}
 
 std::optional<std::string> Checker::find_violation(const Problem& problem,
@@ -18,6 +21,7 @@ std::optional<std::string> Checker::find_violation(const Problem& problem,
   if (answer.size() != end_task_ - first_task_) return "the answer has another number of tasks";
   if (auto violation = check_domains(problem)) return violation;
   if (auto violation = check_exclusivity()) return violation;
+  if (auto violation = check_limits()) return violation;
   return check_requirements();
 }
 
@@ -60,6 +64,21 @@ std::optional<std::string> Checker::check_exclusivity() {
       }
       clique_marks_[clique] = number_;
       clique_holders_[clique] = task;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> Checker::check_limits() {
+  if (catalog_.limits.empty()) return std::nullopt;
+  std::fill(running_.begin(), running_.end(), 0);
+  for (TaskId task = first_task_; task < end_task_; ++task) {
+    violating_ = task;
+    if (behavior_of(task) == none) continue;
+    for (const std::uint32_t limit : catalog_.limits_of(task)) {
+      if (++running_[limit] <= catalog_.limits[limit].most) continue;
+      return concat(describe(task), " is one more than may run (line ", catalog_.limits[limit].line,
+                    ")");
     }
   }
   return std::nullopt;

@@ -29,6 +29,7 @@ class Checker {
   [[nodiscard]] bool is_in_domain(const Problem& problem, TaskId task) const;
   [[nodiscard]] std::optional<std::string> check_domains(const Problem& problem);
   [[nodiscard]] std::optional<std::string> check_exclusivity();
+  [[nodiscard]] std::optional<std::string> check_limits();
   [[nodiscard]] std::optional<std::string> check_requirements();
   [[nodiscard]] bool performs_at_least(TaskId task, Millionths minimum);
   [[nodiscard]] std::string describe(TaskId task) const;
@@ -41,6 +42,7 @@ class Checker {
   std::uint64_t number_ = 0;                  ///< of the present check; marks what it has seen
   std::vector<std::uint64_t> clique_marks_;   ///< by clique
   std::vector<TaskId> clique_holders_;        ///< by clique: its running task, if marked
+  std::vector<std::uint32_t> running_;        ///< by limit: its running tasks
   std::vector<std::uint64_t> closure_marks_;  ///< by task
   std::vector<TaskId> closure_;
   std::vector<std::uint32_t> digits_;

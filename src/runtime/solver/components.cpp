@@ -19,7 +19,9 @@ Components::Components(const CompiledCatalog& catalog, const Domains& domains)
       domains_(domains),
       has_zeros_(catalog.group_count(), 0),
       clique_seen_(catalog.cliques.size(), 0),
-      clique_task_(catalog.cliques.size()) {
+      clique_task_(catalog.cliques.size()),
+      limit_seen_(catalog.limits.size(), 0),
+      limit_task_(catalog.limits.size()) {
   for (TaskId task(0); task < catalog.tasks.size(); ++task) {
     for (const Value& value : catalog.values[task]) {
       if (value.suitability == 0) has_zeros_[catalog.tasks[task].group] = 1;
@@ -98,14 +100,22 @@ void Components::open(LocalTask task) {
 
 /// The rivals of needed tasks are closed already; this is about tasks that may become needed.
 void Components::join_by_cliques() {
+  const auto join_by = [this](std::uint32_t list, LocalTask task, std::vector<std::uint64_t>& seen,
+                              std::vector<LocalTask>& first) {
+    if (seen[list] == number_) {
+      join(task, first[list]);
+    } else {
+      seen[list] = number_;
+      first[list] = task;
+    }
+  };
   for (const LocalTask task : open_) {
-    for (const std::uint32_t clique : catalog_.task_cliques[domains_.first_task() + task]) {
-      if (clique_seen_[clique] == number_) {
-        join(task, clique_task_[clique]);
-      } else {
-        clique_seen_[clique] = number_;
-        clique_task_[clique] = task;
-      }
+    const TaskId id = domains_.first_task() + task;
+    for (const std::uint32_t clique : catalog_.task_cliques[id]) {
+      join_by(clique, task, clique_seen_, clique_task_);
+    }
+    for (const std::uint32_t limit : catalog_.limits_of(id)) {
+      join_by(limit, task, limit_seen_, limit_task_);
     }
   }
 }

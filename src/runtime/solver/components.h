@@ -67,6 +67,8 @@ class Components {
   std::vector<LocalTask> joined_to_;     ///< by task: towards the root of its component
   std::vector<std::uint64_t> clique_seen_;
   std::vector<LocalTask> clique_task_;
+  std::vector<std::uint64_t> limit_seen_;
+  std::vector<LocalTask> limit_task_;
   std::vector<std::uint64_t> behavior_seen_;  ///< by behavior of the group
   std::vector<LocalTask> behavior_task_;
   std::uint64_t reach_number_ = 0;

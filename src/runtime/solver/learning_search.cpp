@@ -185,7 +185,8 @@ bool ObjectiveReasons::propagate(const Incumbent& incumbent, const SearchBudget&
   if (may_serve_more(incumbent)) return true;
   const std::size_t before = trail_.literals().size();
   if (!serve_open_requests()) return false;
-  if (trail_.literals().size() > before || !objective_.ties_on_requests(incumbent)) return true;
+  if (trail_.literals().size() > before || !objective_.ties_before_suitability(incumbent))
+    return true;
   const CostBound::Cost limits = pruning_threshold(incumbent, domains_.task_count());
   if (!bound_costs(limits, false, budget)) return false;
   if (trail_.literals().size() > before) return true;
@@ -200,9 +201,10 @@ bool ObjectiveReasons::propagate(const Incumbent& incumbent, const SearchBudget&
 }
 
 bool ObjectiveReasons::may_serve_more(const Incumbent& incumbent) const {
-  const auto possible =
-      std::count_if(problem_->requests.begin(), problem_->requests.end(),
-                    [this](LocalTask task) { return !trail_.is_false(Trail::runs(task)); });
+  const auto counted = problem_->counted_requests();
+  const auto possible = std::count_if(counted.begin(), counted.end(), [this](LocalTask task) {
+    return !trail_.is_false(Trail::runs(task));
+  });
   return static_cast<std::uint32_t>(possible) > incumbent.satisfied;
 }
 
@@ -210,7 +212,7 @@ bool ObjectiveReasons::may_serve_more(const Incumbent& incumbent) const {
 bool ObjectiveReasons::serve_open_requests() {
   bool is_stored = false;
   Trail::Cause reason;
-  for (const LocalTask task : problem_->requests) {
+  for (const LocalTask task : problem_->counted_requests()) {
     const Literal runs = Trail::runs(task);
     if (trail_.is_true(runs) || trail_.is_false(runs)) continue;
     if (!is_stored) {

@@ -61,9 +61,99 @@ void CanonicalOrder::load(const Problem& problem) {
   }
 }
 
+AskedProduct::AskedProduct(const CompiledCatalog& catalog) : catalog_(catalog) {
+  const std::size_t tasks = most_in_a_group(catalog.group_tasks);
+  closure_.reserve(tasks);
+  in_closure_.resize(tasks, 0);
+  factors_.degrees.reserve(tasks);
+  present_.degrees.reserve(tasks);
+  ours_.reserve(tasks);
+  theirs_.reserve(tasks);
+}
+
+const AskedProduct::Factors& AskedProduct::bound(const Domains& domains,
+                                                 std::span<const LocalTask> requests) {
+  clear();
+  const auto add_best = [&](LocalTask task) {
+    if (domains.count(task) > 0) add(task, domains.value(task, domains.best(task)));
+  };
+  for (const LocalTask task : requests) {
+    if (domains.needed(task)) add_best(task);
+  }
+  // NOLINTNEXTLINE(modernize-loop-convert): the list grows
+  for (std::size_t next = 0; next < closure_.size(); ++next) {
+    const LocalTask task = closure_[next];
+    for (const Arc& arc : catalog_.arcs[domains.first_task() + task]) {
+      if (domains.all_within(task, &catalog_.masks[arc.mask])) {
+        add_best(arc.target - domains.first_task());
+      }
+    }
+  }
+  return factors_;
+}
+
+const AskedProduct::Factors& AskedProduct::of(TaskId first_task, const Assignment& assignment,
+                                              std::span<const LocalTask> requests) {
+  clear();
+  const auto add_value = [&](LocalTask task) {
+    const std::uint32_t index = assignment[task];
+    if (index != none) add(task, catalog_.values[first_task + task][index]);
+  };
+  for (const LocalTask task : requests) add_value(task);
+  // NOLINTNEXTLINE(modernize-loop-convert): the list grows
+  for (std::size_t next = 0; next < closure_.size(); ++next) {
+    const LocalTask task = closure_[next];
+    const Value& value = catalog_.values[first_task + task][assignment[task]];
+    for (const CompiledRequirement& rule : catalog_.requirements[value.behavior]) {
+      add_value(rule.task - first_task);
+    }
+  }
+  return factors_;
+}
+
+void AskedProduct::clear() {
+  ++number_;
+  closure_.clear();
+  factors_.degrees.clear();
+  factors_.cost = 0;
+  factors_.is_zero = false;
+}
+
+void AskedProduct::add(LocalTask task, const Value& value) {
+  if (in_closure_[task] == number_) return;
+  in_closure_[task] = number_;
+  closure_.push_back(task);
+  factors_.cost += value.cost;
+  factors_.is_zero |= value.suitability == 0;
+  if (value.suitability != one_million) factors_.degrees.push_back(value.suitability);
+}
+
+std::strong_ordering AskedProduct::compare(const Factors& ours, const Factors& theirs) {
+  if (ours.is_zero || theirs.is_zero) return ours.is_zero <=> theirs.is_zero;
+  const auto slack =
+      log_cost_error * static_cast<std::int64_t>(ours.degrees.size() + theirs.degrees.size());
+  if (ours.cost > theirs.cost + slack) return std::strong_ordering::greater;
+  if (ours.cost < theirs.cost - slack) return std::strong_ordering::less;
+  ours_.clear();
+  for (const Millionths degree : ours.degrees) ours_.multiply(degree);
+  theirs_.clear();
+  for (const Millionths degree : theirs.degrees) theirs_.multiply(degree);
+  return ExactProduct::compare(theirs_, ours_);
+}
+
+bool AskedProduct::is_worse(TaskId first_task, const Problem& problem, const Assignment& answer) {
+  const auto asked = problem.asked_requests();
+  present_ = of(first_task, problem.present, asked);
+  return compare(of(first_task, answer, asked), present_) > 0;
+}
+
 Objective::Objective(const CompiledCatalog& catalog, const Domains& domains,
                      const Components& components)
-    : catalog_(catalog), domains_(domains), components_(components), order_(catalog) {
+    : catalog_(catalog),
+      domains_(domains),
+      components_(components),
+      order_(catalog),
+      asked_(catalog) {
   const std::size_t tasks = most_in_a_group(catalog.group_tasks);
   const std::size_t behaviors = most_in_a_group(catalog.group_behaviors);
   is_request_.reserve(tasks);
@@ -74,8 +164,9 @@ Objective::Objective(const CompiledCatalog& catalog, const Domains& domains,
   theirs_.reserve(tasks);
 }
 
-void Objective::load(const Problem& problem) {
+void Objective::load(const Problem& problem, bool has_all_answers) {
   problem_ = &problem;
+  compares_asked_ = has_all_answers || problem.unasked > 0;
   order_.load(problem);
   const std::uint32_t tasks = domains_.task_count();
   const BehaviorId first_behavior = domains_.first_behavior();
@@ -106,6 +197,9 @@ Objective::Comparison Objective::compare(const Incumbent& incumbent, std::uint32
   if (const auto order = compare_requests(incumbent); order != 0) {
     return {order, Decider::requests};
   }
+  if (const Comparison comparison = compare_unasked(incumbent); comparison.order != 0) {
+    return comparison;
+  }
   if (const auto order = compare_suitability(incumbent); order != 0) {
     return {order, Decider::suitability};
   }
@@ -121,16 +215,38 @@ Objective::Comparison Objective::compare(const Incumbent& incumbent, std::uint32
 std::strong_ordering Objective::compare_requests(const Incumbent& incumbent) const {
   std::uint32_t possible = 0;
   auto order = std::strong_ordering::equal;
-  for (const LocalTask task : problem_->requests) {
+  const auto compare = [&](LocalTask task) {
     const bool ours = domains_.count(task) > 0;
     const bool theirs = incumbent.assignment[task] != none;
-    if (ours) ++possible;
     if (order == 0 && ours != theirs) {
       order = ours ? std::strong_ordering::less : std::strong_ordering::greater;
     }
+    return ours;
+  };
+  const auto counted = problem_->counted_requests();
+  for (const LocalTask task : counted) {
+    if (compare(task)) ++possible;
   }
   if (possible != incumbent.satisfied) return incumbent.satisfied <=> possible;
+  for (const LocalTask task : problem_->asked_requests().subspan(counted.size())) compare(task);
   return order;
+}
+
+/// The product of what was asked for, then the requests of priority 0, the most recent one first.
+/// Where there are none, f2 says the same, as then nothing runs in the best answers that nobody
+/// asked for.
+Objective::Comparison Objective::compare_unasked(const Incumbent& incumbent) {
+  if (!compares_asked_) return {};
+  const AskedProduct::Factors& ours = asked_.bound(domains_, problem_->asked_requests());
+  if (const auto order = asked_.compare(ours, incumbent.asked); order != 0) {
+    return {order, Decider::asked};
+  }
+  for (const LocalTask task : problem_->unasked_requests()) {
+    const bool may_run = domains_.count(task) > 0;
+    if (may_run == (incumbent.assignment[task] != none)) continue;
+    return {may_run ? std::strong_ordering::less : std::strong_ordering::greater, Decider::unasked};
+  }
+  return {};
 }
 
 /// f2. "less" is better.
@@ -259,9 +375,10 @@ void Objective::record(Incumbent& incumbent) {
     incumbent.assignment[task] = domains_.best(task);
   }
   incumbent.satisfied = 0;
-  for (const LocalTask task : problem_->requests) {
+  for (const LocalTask task : problem_->counted_requests()) {
     if (domains_.count(task) > 0) ++incumbent.satisfied;
   }
+  if (compares_asked_) incumbent.asked = asked_.bound(domains_, problem_->asked_requests());
   incumbent.sums = domains_.sums();
   incumbent.changes = least_changes();
 }

@@ -2,6 +2,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cbc/units.h"
@@ -50,12 +51,51 @@ class CanonicalOrder {
   std::vector<std::uint32_t> kept_first_;  ///< by task: the value index that comes first, or none
 };
 
+/// The product of the suitabilities of what was asked for: of the tasks with a request of priority
+/// 1 or more, and of what they require (docs/semantics.md, "Objectives").
+class AskedProduct {
+ public:
+  struct Factors {
+    std::vector<Millionths> degrees;  ///< apart from 1
+    std::int64_t cost = 0;
+    bool is_zero = false;
+  };
+
+  explicit AskedProduct(const CompiledCatalog& catalog);
+
+  /// A bound on that of the solutions in a subtree: of what runs in all of them, each with its most
+  /// suitable behavior. `requests`: what was asked for. Valid until the next call.
+  [[nodiscard]] const Factors& bound(const Domains& domains, std::span<const LocalTask> requests);
+  /// That of an assignment of a group. Valid until the next call.
+  [[nodiscard]] const Factors& of(TaskId first_task, const Assignment& assignment,
+                                  std::span<const LocalTask> requests);
+  /// "less" is better: the higher product.
+  [[nodiscard]] std::strong_ordering compare(const Factors& ours, const Factors& theirs);
+  /// Whether what was asked for would run worse in an answer than before: the answer to a start
+  /// that nobody asked for is none then.
+  [[nodiscard]] bool is_worse(TaskId first_task, const Problem& problem, const Assignment& answer);
+
+ private:
+  void clear();
+  void add(LocalTask task, const Value& value);
+
+  const CompiledCatalog& catalog_;
+  std::vector<LocalTask> closure_;
+  std::vector<std::uint64_t> in_closure_;  ///< by task: number of the last closure it was in
+  std::uint64_t number_ = 0;
+  Factors factors_;
+  Factors present_;
+  ExactProduct ours_;
+  ExactProduct theirs_;
+};
+
 /// The best solution so far, and its objectives.
 struct Incumbent {
   bool exists = false;
   Assignment assignment;           ///< by task
   std::vector<LocalTask> running;  ///< tasks that run
   std::uint32_t satisfied = 0;     ///< requests, for f1
+  AskedProduct::Factors asked;     ///< only where it is compared
   Domains::Sums sums;              ///< for f2 and f3
   std::uint32_t changes = 0;       ///< for f4
 };
@@ -66,11 +106,12 @@ class Objective {
  public:
   Objective(const CompiledCatalog& catalog, const Domains& domains, const Components& components);
 
-  /// To be called after Domains::load.
-  void load(const Problem& problem);
+  /// To be called after Domains::load. `has_all_answers`: also answers are compared in which a task
+  /// runs for nothing, so that the product of what was asked for says more than f2.
+  void load(const Problem& problem, bool has_all_answers = false);
 
   /// The first objective that tells two solutions apart.
-  enum class Decider : std::uint8_t { requests, suitability, idle, changes, order };
+  enum class Decider : std::uint8_t { requests, asked, unasked, suitability, idle, changes, order };
   struct Comparison {
     std::strong_ordering order = std::strong_ordering::equal;  ///< "less" is better
     Decider decider = Decider::order;
@@ -85,12 +126,12 @@ class Objective {
     return !incumbent.exists || compare(incumbent, depth).order < 0;
   }
 
-  /// f1, then the requests from the most important one down: how the best of the subtree compares
-  /// with `incumbent`. "less" is better.
+  /// f1, then the requests from the most important one down, suspended ones last: how the best of
+  /// the subtree compares with `incumbent`. "less" is better.
   [[nodiscard]] std::strong_ordering compare_requests(const Incumbent& incumbent) const;
-  /// Whether it satisfies the same requests as `incumbent`, so that f2 decides.
-  [[nodiscard]] bool ties_on_requests(const Incumbent& incumbent) const {
-    return compare_requests(incumbent) == 0;
+  /// Whether f2 is the first that may tell it from `incumbent`.
+  [[nodiscard]] bool ties_before_suitability(const Incumbent& incumbent) {
+    return compare_requests(incumbent) == 0 && compare_unasked(incumbent).order == 0;
   }
 
   /// Makes the solution of the present component the incumbent; each of its needed tasks has one
@@ -116,6 +157,7 @@ class Objective {
   }
 
  private:
+  [[nodiscard]] Comparison compare_unasked(const Incumbent& incumbent);
   [[nodiscard]] std::strong_ordering compare_suitability(const Incumbent& incumbent);
   [[nodiscard]] std::strong_ordering compare_exactly(const Incumbent& incumbent);
   [[nodiscard]] std::strong_ordering compare_keys(const Incumbent& incumbent,
@@ -138,8 +180,10 @@ class Objective {
   const Domains& domains_;
   const Components& components_;
   const Problem* problem_ = nullptr;
+  bool compares_asked_ = false;
 
   CanonicalOrder order_;
+  AskedProduct asked_;
   std::vector<std::uint8_t> is_request_;  ///< by task
   std::vector<std::uint8_t> active_;      ///< by behavior of the group: active before the event
   std::vector<std::uint64_t> free_;       ///< as domains; see is_free

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "runtime/compiled/compiled_catalog.h"
@@ -20,10 +21,26 @@ struct Problem {
   std::vector<std::uint64_t> domains;  ///< bit sets of value indices, task by task as in words
   std::vector<std::uint8_t> may_stop;  ///< by task: whether "not running" is in the domain
   std::vector<std::uint32_t> present;  ///< by task: value index before the event, or none
-  std::vector<LocalTask> requests;     ///< tasks with an active request, most important first
-  std::vector<BehaviorId> active;      ///< active behaviors just before the event
+  /// Tasks that are asked to run. First those with an active request of priority 1 or more, which
+  /// f1 counts, the most important one first; then those whose request is suspended, in the same
+  /// order; last those with an active request of priority 0, the most recent one first.
+  std::vector<LocalTask> requests;
+  std::uint32_t suspended = 0;     ///< number of suspended ones
+  std::uint32_t unasked = 0;       ///< number of those with priority 0: nobody asked for them
+  std::vector<BehaviorId> active;  ///< active behaviors just before the event
   /// Where this is a subproblem: the problem whose domains fix the canonical order. Null: this one.
   const Problem* subproblem_of = nullptr;
+
+  [[nodiscard]] std::span<const LocalTask> counted_requests() const {
+    return std::span(requests).first(requests.size() - suspended - unasked);
+  }
+  /// All but those of priority 0.
+  [[nodiscard]] std::span<const LocalTask> asked_requests() const {
+    return std::span(requests).first(requests.size() - unasked);
+  }
+  [[nodiscard]] std::span<const LocalTask> unasked_requests() const {
+    return std::span(requests).last(unasked);
+  }
 };
 
 /// A value for every task of a group: a value index, or none.

@@ -11,6 +11,8 @@
 // need, and with a reason for each inference, for searches that learn.
 #include "runtime/solver/propagation.h"
 
+#include <algorithm>
+
 #include "runtime/compiled/derive.h"
 
 namespace cbc {
@@ -28,6 +30,22 @@ bool close_rivals(const CompiledCatalog& catalog, const Domains& domains, LocalT
       const LocalTask rival = member - domains.first_task();
       if (rival != task && !close(rival)) return false;
     }
+  }
+  return true;
+}
+
+/// A task that runs closes the other tasks of each limit of which as many run as may. `runs`:
+/// whether a task does. `close`: of a task, the limit and its number; false ends it.
+template <typename Runs, typename Close>
+bool close_limited(const CompiledCatalog& catalog, const Domains& domains, LocalTask task,
+                   const Runs& runs, const Close& close) {
+  for (const std::uint32_t limit : catalog.limits_of(domains.first_task() + task)) {
+    const auto members = catalog.limited[limit];
+    const auto running = std::count_if(members.begin(), members.end(), [&](TaskId member) {
+      return runs(member - domains.first_task());
+    });
+    if (static_cast<std::uint32_t>(running) < catalog.limits[limit].most) continue;
+    if (!close(limit)) return false;
   }
   return true;
 }
@@ -224,9 +242,26 @@ bool Propagator::revise(LocalTask task) {
   }
   return close_rivals(catalog_, domains_, task,
                       [this](LocalTask rival) { return domains_.close(rival); }) &&
+         close_limited(
+             catalog_, domains_, task, [this](LocalTask one) { return domains_.needed(one); },
+             [this](std::uint32_t limit) { return close_rest(limit); }) &&
          need_requirements(catalog_, domains_, task, [this](const Arc& /*arc*/, LocalTask target) {
            return domains_.need(target);
          });
+}
+
+/// As many tasks of a limit as may run do, or more.
+bool Propagator::close_rest(std::uint32_t limit) {
+  std::uint32_t left = catalog_.limits[limit].most;
+  for (const TaskId member : catalog_.limited[limit]) {
+    const LocalTask task = member - domains_.first_task();
+    if (domains_.needed(task)) {
+      if (left-- == 0) return false;
+    } else if (!domains_.close(task)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 bool Propagator::revise_performance() {
@@ -255,8 +290,29 @@ bool CatalogTrail::load(const Problem& problem) {
 }
 
 bool CatalogTrail::follow_running(LocalTask task) {
-  return close_rivals(catalog_, domains_, task, [&](LocalTask rival) {
+  const auto close_rival = [&](LocalTask rival) {
     return imply(negate(runs(rival)), {Cause::Kind::literal, runs(task)});
+  };
+  const auto is_running = [this](LocalTask one) { return is_true(runs(one)); };
+  return close_rivals(catalog_, domains_, task, close_rival) &&
+         close_limited(catalog_, domains_, task, is_running,
+                       [this](std::uint32_t limit) { return close_rest(limit); });
+}
+
+/// The reason: as many as may run do. Where more do, the next one is the conflict.
+bool CatalogTrail::close_rest(std::uint32_t limit) {
+  const auto members = catalog_.limited[limit];
+  const std::uint32_t most = catalog_.limits[limit].most;
+  reason_.clear();
+  for (const TaskId member : members) {
+    const Literal literal = runs(member - first_task_);
+    if (reason_.size() < most && is_true(literal)) reason_.push_back(literal);
+  }
+  const Cause cause = store(reason_);
+  return std::all_of(members.begin(), members.end(), [&](TaskId member) {
+    const Literal literal = runs(member - first_task_);
+    const bool is_in_reason = std::find(reason_.begin(), reason_.end(), literal) != reason_.end();
+    return is_in_reason || imply(negate(literal), cause);
   });
 }
 

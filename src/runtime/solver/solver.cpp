@@ -32,6 +32,7 @@ Solver::Solver(const CompiledCatalog& catalog, const SearchOptions& options)
   for (ComponentSearch& search : searches_) {
     search.best.assignment.reserve(tasks);
     search.best.running.reserve(tasks);
+    search.best.asked.degrees.reserve(tasks);
   }
 }
 
@@ -100,18 +101,18 @@ SearchBound Solver::compare_requests(const Assignment& answer) const {
   std::uint32_t possible = 0;
   std::uint32_t served = 0;
   for (const LocalTask task : problem_->requests) {
-    const bool is_served = answer[task] != none;
-    const bool is_possible = domains_.count(task) > 0;
-    if (is_served) ++served;
-    if (is_possible) ++possible;
-    if (is_possible && !is_served) bound.same_requests = false;
+    if (domains_.count(task) > 0 && answer[task] == none) bound.same_requests = false;
+  }
+  for (const LocalTask task : problem_->counted_requests()) {
+    if (answer[task] != none) ++served;
+    if (domains_.count(task) > 0) ++possible;
   }
   bound.more_requests = possible > served ? possible - served : 0;
   return bound;
 }
 
 bool Solver::serve_requests_of(const Assignment& answer) {
-  for (const LocalTask task : problem_->requests) {
+  for (const LocalTask task : problem_->counted_requests()) {
     if (answer[task] != none && !domains_.need(task)) return false;
   }
   return propagator_.propagate();
@@ -129,7 +130,7 @@ void Solver::load(const Problem& problem) {
   domains_.load(problem);
   propagator_.load(problem);
   components_.load(problem);
-  objective_.load(problem);
+  objective_.load(problem, options_.max_solutions > 0);
   result_ = {};
   is_hard_ = false;
   is_hopeless_ = false;
@@ -194,7 +195,9 @@ bool Solver::may_improve() {
 
   const ComponentSearch& component = current();
   const auto threshold_of = [this](const Incumbent& best) -> CostBound::Cost {
-    if (!best.exists || !objective_.ties_on_requests(best)) return {INT64_MAX, INT64_MAX};
+    if (!best.exists || !objective_.ties_before_suitability(best)) {
+      return {INT64_MAX, INT64_MAX};
+    }
     return pruning_threshold(best, domains_.task_count());
   };
   CostBound::Cost threshold = threshold_of(component.best);
@@ -222,8 +225,10 @@ bool Solver::should_restart() const {
 }
 
 /// Whether the search turns out to be too hard for branch and bound: it has no solution yet, or it
-/// does not fall into components.
+/// does not fall into components. Where something runs that nobody asked for, the searches that
+/// learn have no reasons for its objectives.
 bool Solver::should_learn() const {
+  if (problem_->unasked > 0) return false;
   if (options_.max_solutions > 0 || options_.bounded_nodes == UINT64_MAX) return false;
   if (result_.nodes < options_.easy_nodes) return false;
   if (!searches_.front().best.exists) return true;

@@ -83,8 +83,10 @@ MoveChoice choice_of(const CompiledCatalog& catalog, const Script& script) {
   const auto add = [&behaviors](const Situation& situation) {
     for (const Availability& entry : situation.availability) behaviors.insert(entry.behavior);
   };
-  for (const CompiledTask& task : catalog.tasks) {
-    if (task.start_on_request != 0) tasks.insert(task.catalog_index);
+  for (const TaskId task : catalog.task_ids) {
+    if (catalog.tasks[task].start_on_request != 0 && catalog.rules_of(task).requestable) {
+      tasks.insert(catalog.tasks[task].catalog_index);
+    }
   }
   add(script.situation);
   for (const Step& step : script.steps) {
@@ -158,7 +160,12 @@ std::vector<Step> list_moves(const CompiledCatalog& catalog, const State& state,
       steps.back().priority = priority;
     }
   }
-  for (const std::uint32_t task : state.running()) steps.push_back(make_step(Verb::stop, task));
+  for (std::uint32_t index = 0; index < catalog.task_ids.size(); ++index) {
+    const TaskId task = catalog.task_ids[index];
+    if (state.is_running(task) || state.is_suspended(task)) {
+      steps.push_back(make_step(Verb::stop, index));
+    }
+  }
   for (const FinishCause cause :
        {FinishCause::goal_achieved, FinishCause::process_failure, FinishCause::situation_change}) {
     add_finishes(catalog, state, cause, steps);
@@ -170,7 +177,8 @@ std::vector<Step> list_moves(const CompiledCatalog& catalog, const State& state,
     }
   }
   for (std::uint32_t index = 0; index < catalog.behaviors.size(); ++index) {
-    if (state.is_faulty(catalog.behavior_ids[index])) {
+    const BehaviorId behavior = catalog.behavior_ids[index];
+    if (state.is_faulty(behavior) || state.has_failed(behavior)) {
       steps.push_back(make_step(Verb::repair, index));
     }
   }
@@ -211,10 +219,22 @@ MoveEffects effects_of(const CompiledCatalog& catalog, const PossibleMove& move)
         effects.requested.push_back(task);
       }
     }
+    if (state.is_suspended(task) && !move.before.is_suspended(task)) {
+      effects.suspended.push_back(task);
+    }
+    if (move.before.is_suspended(task) && !state.is_suspended(task) && after == none) {
+      effects.ended.push_back(task);
+    }
     if (state.queue().has(index) && !move.before.queue().has(index)) effects.queued.push_back(task);
   }
   for (const BehaviorId behavior : catalog.behavior_ids) {
     if (fails(move, behavior)) effects.failed.push_back(behavior);
+    if (state.has_failed(behavior) && !move.before.has_failed(behavior)) {
+      effects.not_retried.push_back(behavior);
+    }
+    if (move.before.has_failed(behavior) && !state.has_failed(behavior)) {
+      effects.forgiven.push_back(behavior);
+    }
   }
   return effects;
 }

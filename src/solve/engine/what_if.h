@@ -28,10 +28,11 @@ struct KeptEvent {
   KeptEvent(const ExplainedRecord& of, const Step* its_step);
 };
 
-/// Whether an event of origin `fault` or `situation` belongs to the one before it: nothing can
-/// happen between them.
+/// Whether an event of origin `fault`, `situation` or `repair` belongs to the one before it:
+/// nothing can happen between them.
 [[nodiscard]] inline bool follows_at_once(const EventRecord& record) {
-  return record.origin == Origin::fault || record.origin == Origin::situation;
+  return record.origin == Origin::fault || record.origin == Origin::situation ||
+         record.origin == Origin::repair;
 }
 
 /// A state of a mission, between two events.
@@ -60,15 +61,17 @@ struct MoveChoice {
   std::vector<std::uint32_t> behaviors;  ///< of which a script may say whether they are available
 };
 
-/// The tasks with start_on_request and those that the mission starts; the priorities of its starts,
-/// or 1; and the behaviors in its situations.
+/// The requestable tasks with start_on_request and those that the mission starts; the priorities of
+/// its starts, or 1; and the behaviors in its situations.
 [[nodiscard]] MoveChoice choice_of(const CompiledCatalog& catalog, const Script& script);
 
 /// All moves in a state that do not come from the clock, as steps without a time, in this order:
-/// starts, by task and then by priority; stops of running tasks; finishes of active behaviors,
+/// starts, by task and then by priority; stops of tasks that run or whose request is suspended;
+/// finishes of active behaviors,
 /// first with goal_achieved where all tasks that they perform now have goals to achieve, then with
 /// process_failure, then with situation_change where the situation denies them; faults of active
-/// behaviors; repairs of faulty ones; changes of one value of the situation.
+/// behaviors; repairs of those that are faulty or have failed; changes of one value of the
+/// situation.
 [[nodiscard]] std::vector<Step> list_moves(const CompiledCatalog& catalog, const State& state,
                                            const MoveChoice& choice);
 
@@ -90,12 +93,16 @@ struct PossibleMove {
 
 /// What is different after a move, in catalog order.
 struct MoveEffects {
-  std::vector<TaskId> started;     ///< run after it, but not before
-  std::vector<TaskId> stopped;     ///< ran before it, but not after
-  std::vector<TaskId> changed;     ///< run before and after it, with different behaviors
-  std::vector<TaskId> requested;   ///< go on with a request of another priority
-  std::vector<BehaviorId> failed;  ///< whose activation was tried, as they are faulty
-  std::vector<TaskId> queued;      ///< reactive tasks that have come into the queue
+  std::vector<TaskId> started;          ///< run after it, but not before
+  std::vector<TaskId> stopped;          ///< ran before it, but not after
+  std::vector<TaskId> changed;          ///< run before and after it, with different behaviors
+  std::vector<TaskId> requested;        ///< go on with a request of another priority
+  std::vector<BehaviorId> failed;       ///< whose activation was tried, as they are faulty
+  std::vector<TaskId> ended;            ///< whose request was suspended, and ends
+  std::vector<BehaviorId> forgiven;     ///< which had failed, and are tried again
+  std::vector<TaskId> suspended;        ///< whose request is suspended
+  std::vector<BehaviorId> not_retried;  ///< which are not tried again at any event
+  std::vector<TaskId> queued;           ///< reactive tasks that have come into the queue
 };
 
 [[nodiscard]] MoveEffects effects_of(const CompiledCatalog& catalog, const PossibleMove& move);

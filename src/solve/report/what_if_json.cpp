@@ -32,7 +32,8 @@ constexpr auto outcome = member(
 constexpr auto following =
     object("following", "An event that follows at once from another one.", what_happened, outcome)
         .related(relations_by_verb, R"([
-      {"properties": {"verb": {"const": "finish"}, "origin": {"enum": ["fault", "situation"]}}}])");
+      {"properties": {"verb": {"enum": ["finish", "reconsider"]},
+         "origin": {"enum": ["fault", "situation", "repair"]}}}])");
 
 constexpr auto event_of = [](const Described& of) -> const EventWithState& { return of.event; };
 
@@ -67,6 +68,25 @@ constexpr auto move =
             "The behaviors whose activation would be tried and fail, as they are faulty, in "
             "catalog order.",
             [](const Described& of) -> const auto& { return of.effects.failed; }),
+        optional("suspended", map(task, priority),
+                 "The tasks whose request would be suspended, in catalog order, each with its "
+                 "priority. Only where the catalog has keys for it.",
+                 [](const Described& of) {
+                   const auto write = [&of](const auto& put) {
+                     for (const TaskId id : of.effects.suspended) {
+                       put(id, of.move.after().find_own_request(id)->priority);
+                     }
+                   };
+                   return of.event.catalog.has_further_keys() ? std::optional(write) : std::nullopt;
+                 }),
+        optional("not_retried", behaviors,
+                 "The behaviors that would have failed, and not be tried again at any event, in "
+                 "catalog order. Where `suspended` is.",
+                 [](const Described& of) {
+                   return of.event.catalog.has_further_keys()
+                              ? std::optional(of.effects.not_retried)
+                              : std::nullopt;
+                 }),
         member("queued", map(task, positive_seconds),
                "The reactive tasks that would come into the queue, in catalog order, each with "
                "the time when it is due.",
@@ -78,7 +98,8 @@ constexpr auto move =
                  };
                }),
         member("follows", list(following),
-               "The events of origin fault and situation that would follow at once. What the move "
+               "The events of origin fault, situation and repair that would follow at once. What "
+               "the move "
                "would do includes what they do.",
                [](const Described& of) {
                  return [&of](const auto& put) {
@@ -98,7 +119,7 @@ constexpr auto move =
        "else": {"properties": {"conflict": {"type": "array", "maxItems": 0}}}},
       {"if": {"properties": {"verb": {"enum": ["start", "stop", "finish"]}}},
        "else": {"properties": {"outcome": {"const": "unchanged"}, "search": {"type": "null"}}}},
-      {"if": {"properties": {"outcome": {"const": "accepted"}}},
+      {"if": {"properties": {"outcome": {"const": "accepted"}, "verb": {"not": {"const": "stop"}}}},
        "then": {"properties": {"search": {"type": "object"}}}}])");
 
 /// The moves are written one by one.

@@ -96,9 +96,25 @@ std::string describe_effect(const CompiledCatalog& catalog, const PossibleMove& 
     parts.push_back(fmt::format("{} goes on with priority {}", task_name(catalog, task),
                                 after.request(task).priority));
   }
+  if (!effects.suspended.empty()) {
+    parts.push_back("suspends the request of " +
+                    join(names_of_tasks(catalog, effects.suspended), ", "));
+  }
+  if (!effects.ended.empty()) {
+    parts.push_back("ends the request of " + join(names_of_tasks(catalog, effects.ended), ", "));
+  }
+  if (!effects.forgiven.empty()) {
+    parts.push_back(join(names_of_behaviors(catalog, effects.forgiven), ", ") + " is tried again");
+  }
+  if (!effects.not_retried.empty()) {
+    parts.push_back("remembers the failure of " +
+                    join(names_of_behaviors(catalog, effects.not_retried), ", "));
+  }
   for (const TaskId task : effects.queued) {
     // It would be dropped when it is due.
-    if (after.excludes_running_task(task) || !after.has_available_behavior(task)) continue;
+    if (after.is_blocked(task, catalog.rules_of(task).reactive_priority) ||
+        !after.has_available_behavior(task))
+      continue;
     const Microseconds due = after.queue().due(catalog.tasks[task].catalog_index);
     parts.push_back(
         fmt::format("{} may start by itself at {} s", task_name(catalog, task), format_time(due)));
@@ -177,16 +193,32 @@ std::string WhatIfText::header() const {
         describe_value(catalog, VariableValue{variable, of_.state.value_of(variable)}));
   }
   if (!situation.empty()) text.line("situation: {}", join(situation, ", "));
+  std::vector<TaskId> suspended;
+  for (const TaskId task : catalog.task_ids) {
+    if (of_.state.is_suspended(task)) suspended.push_back(task);
+  }
+  const auto waiting = [&](TaskId task) {
+    return fmt::format("{} with priority {}", task_name(catalog, task),
+                       of_.state.find_own_request(task)->priority);
+  };
+  if (!suspended.empty()) text.line("suspended: {}", join(suspended, ", ", waiting));
   std::vector<BehaviorId> unavailable;
   std::vector<BehaviorId> faulty;
+  std::vector<BehaviorId> failed;
   for (const BehaviorId behavior : catalog.behavior_ids) {
     if (of_.state.is_denied(behavior)) unavailable.push_back(behavior);
     if (of_.state.is_faulty(behavior)) faulty.push_back(behavior);
+    if (of_.state.has_failed(behavior)) failed.push_back(behavior);
   }
   if (!unavailable.empty()) {
     text.line("unavailable: {}", join(names_of_behaviors(catalog, unavailable), ", "));
   }
   if (!faulty.empty()) text.line("faulty: {}", join(names_of_behaviors(catalog, faulty), ", "));
+  const auto since = [&](BehaviorId behavior) {
+    return fmt::format("{} at {} s", behavior_name(catalog, behavior),
+                       format_time(of_.state.failed_at(behavior)));
+  };
+  if (!failed.empty()) text.line("failed, not tried again: {}", join(failed, ", ", since));
   return text.take();
 }
 

@@ -52,7 +52,9 @@ DrawnNames::DrawnNames(const CompiledCatalog& catalog, const Translation* to_oth
   for (std::uint32_t place = 0; place < catalog.tasks.size(); ++place) {
     if (to_other != nullptr && to_other->tasks[catalog.task_ids[place]] == none) continue;
     all_tasks_[place] = {place, number_of(catalog.task_names[place])};
-    tasks_.push_back(all_tasks_[place]);
+    if (catalog.rules_of(catalog.task_ids[place]).requestable != 0) {
+      tasks_.push_back(all_tasks_[place]);
+    }
   }
   for (std::uint32_t place = 0; place < catalog.behaviors.size(); ++place) {
     if (to_other != nullptr && to_other->behaviors[catalog.behavior_ids[place]] == none) continue;

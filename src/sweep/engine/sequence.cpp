@@ -41,6 +41,7 @@ SweepKind kind_of(const EventRecord& record) {
     case Origin::fault:
       return SweepKind::lost;
     case Origin::script:
+    case Origin::repair:
     case Origin::situation:
       break;
   }
@@ -57,6 +58,8 @@ SweepKind kind_of(const EventRecord& record) {
       return SweepKind::fault;
     case Verb::repair:
       return SweepKind::repair;
+    case Verb::reconsider:
+      return SweepKind::reconsider;
     default:  // a sweep has no events with other verbs
       return SweepKind::situation;
   }
@@ -81,9 +84,9 @@ void count_outcome(OutcomeCounts& counts, const EventRecord& record) {
 
 std::string_view name_of(SweepKind kind) {
   static constexpr std::array<std::string_view, sweep_kinds> names{
-      "start",      "stop",  "finish_success", "finish_failure", "finish_situation_change",
-      "situation",  "fault", "repair",         "timeout",        "reactive_start",
-      "finish_lost"};
+      "start",       "stop",      "finish_success", "finish_failure", "finish_situation_change",
+      "situation",   "fault",     "repair",         "timeout",        "reactive_start",
+      "finish_lost", "reconsider"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -105,8 +108,8 @@ void SweepCounts::add(const CompiledCatalog& catalog, const ExplainedRecord& rec
   for (const Reason& reason : record.conflict) {
     const std::uint32_t behavior =
         reason.behavior == none ? none : catalog.behaviors[reason.behavior].catalog_index;
-    ++reasons[{reason.kind, behavior, place_of_task(reason.task),
-               place_of_task(reason.other_task)}];
+    ++reasons[{reason.kind, behavior, place_of_task(reason.task), place_of_task(reason.other_task),
+               reason.kind == Reason::Kind::limited ? reason.line : 0}];
   }
 }
 

@@ -116,9 +116,10 @@ enum class SweepKind : std::uint8_t {
   repair,
   timeout,   ///< a finish by the clock
   reactive,  ///< a start by the clock
-  lost       ///< a finish of a behavior that a rejected event could not activate again
+  lost,      ///< a finish of a behavior that a rejected event could not activate again
+  reconsider
 };
-inline constexpr std::size_t sweep_kinds = 11;
+inline constexpr std::size_t sweep_kinds = 12;
 
 /// "start", "finish_success"
 [[nodiscard]] std::string_view name_of(SweepKind kind);
@@ -129,6 +130,7 @@ struct OutcomeCounts {
   std::uint64_t rejected = 0;
   std::uint64_t unchanged = 0;
 
+  [[nodiscard]] bool is_zero() const { return accepted + rejected + unchanged == 0; }
   void add(const OutcomeCounts& other) {
     accepted += other.accepted;
     escalated += other.escalated;
@@ -155,6 +157,7 @@ struct RejectionReason {
   std::uint32_t behavior = none;
   std::uint32_t task = none;
   std::uint32_t other_task = none;
+  std::uint32_t line = 0;  ///< of a list that lets only some tasks run
 
   auto operator<=>(const RejectionReason&) const = default;
 };

@@ -53,7 +53,7 @@ struct Candidate {
   std::uint64_t sequence = 0;  ///< from 0
   std::uint64_t event = 0;
   Verb verb = Verb::wait;
-  std::uint32_t subject = 0;  ///< place in the catalog
+  std::uint32_t subject = 0;  ///< place in the catalog; none of reconsider
 };
 
 /// Sums, which do not depend on the order of the parts.
@@ -111,8 +111,9 @@ class Tally final : public SequenceListener {
     if (comparison_ != nullptr) comparison_->on_new_event(record);
     if (record.search != nullptr) add_costs(record, Clock::now() - event_began_);
     totals_.counts.add(catalog_, record);
-    // NOLINTNEXTLINE(clang-analyzer-core.*): what is accepted was searched for
-    if (record.outcome == Outcome::accepted) count_runs(record.search->group, state);
+    if (record.outcome == Outcome::accepted && record.search != nullptr) {
+      count_runs(record.search->group, state);
+    }
     event_began_ = Clock::now();
   }
 
@@ -123,7 +124,9 @@ class Tally final : public SequenceListener {
     candidate.event = record.index;
     candidate.verb = record.verb;
     candidate.subject = record.task != none ? catalog_.tasks[record.task].catalog_index
-                                            : catalog_.behaviors[record.behavior].catalog_index;
+                        : record.behavior != none
+                            ? catalog_.behaviors[record.behavior].catalog_index
+                            : none;
     candidate.cost = record.search->result.nodes;
     totals_.nodes.add(candidate.cost);
     keep_slower(totals_.most_nodes, std::optional(candidate));
@@ -221,6 +224,7 @@ class Work {
 };
 
 std::string describe(const CompiledCatalog& catalog, const Candidate& candidate) {
+  if (candidate.subject == none) return std::string(name_of(candidate.verb));
   const bool is_task = form_of(candidate.verb).subject == VerbForm::SubjectKind::task;
   const Texts& names = is_task ? catalog.task_names : catalog.behavior_names;
   return fmt::format("{} {}", name_of(candidate.verb), printable(names[candidate.subject]));

@@ -67,7 +67,7 @@ using OfKind = std::pair<SweepKind, OutcomeCounts>;
 
 constexpr auto kind_with_outcomes = object(
     "outcomes", "",
-    member("kind", words(SweepKind::lost),
+    member("kind", words(SweepKind::reconsider),
            "finish_success: cause goal_achieved. finish_failure: cause time_out, wrong_progress, "
            "process_failure or interrupted. finish_situation_change: cause situation_change. "
            "timeout: a finish caused by the clock. reactive_start: a start caused by the clock. "
@@ -82,6 +82,9 @@ struct Events {
   void write(JsonWriter& json, const Counts& counts, const auto& context) const {
     const auto each = [&](const auto& put) {
       for (std::size_t kind = 0; kind < sweep_kinds; ++kind) {
+        if (static_cast<SweepKind>(kind) == SweepKind::reconsider && counts.at(kind).is_zero()) {
+          continue;
+        }
         put(OfKind(static_cast<SweepKind>(kind), counts.at(kind)));
       }
     };
@@ -100,7 +103,7 @@ struct Events {
       json.close('}');
     }
     json.close(']');
-    json.write("minItems", sweep_kinds);
+    json.write("minItems", sweep_kinds - 1);
     json.write("items", false);
   }
 };
@@ -181,9 +184,15 @@ constexpr auto reason = variants(
     "reason", "A reason, as in `conflict` of cbc.solve/1.", group(), "kind",
     [](auto& of) -> auto& { return of.first.kind; },
     group(member("count", place_from_1, "", second_of)),
-    variant({Kind::is_protected, Kind::priority, Kind::no_behavior, Kind::on_request}, "",
-            of_reason(task_of_reason)),
-    variant({Kind::unavailable, Kind::situation, Kind::faulty}, "", of_reason(behavior_of_reason)),
+    variant({Kind::is_protected, Kind::priority, Kind::no_behavior, Kind::on_request,
+             Kind::makes_worse},
+            "", of_reason(task_of_reason)),
+    variant({Kind::unavailable, Kind::situation, Kind::faulty, Kind::not_retried}, "",
+            of_reason(behavior_of_reason)),
+    variant({Kind::limited}, "",
+            of_reason(member("line", line_number, "That of the list in the catalog.",
+                             &RejectionReason::line))),
+    variant({Kind::not_improved}, "", of_reason(task_of_reason, behavior_of_reason)),
     variant({Kind::exclusive}, "", member("tasks", BothTasks(), "", first_of)),
     variant({Kind::requires_task}, "", of_reason(behavior_of_reason, task_of_reason)),
     variant({Kind::performance}, "",

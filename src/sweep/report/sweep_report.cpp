@@ -30,7 +30,8 @@ constexpr std::string_view label(SweepKind kind) {
                                                                 "repair",
                                                                 "timeout",
                                                                 "reactive start",
-                                                                "finish after a failed undo"};
+                                                                "finish after a failed undo",
+                                                                "reconsidered"};
   return labels[static_cast<std::size_t>(kind)];
 }
 
@@ -68,6 +69,7 @@ void add_events(const SweepResult& result, Text& text) {
   };
   for (std::size_t kind = 0; kind < sweep_kinds; ++kind) {
     const OutcomeCounts& counts = result.counts.events[kind];
+    if (static_cast<SweepKind>(kind) == SweepKind::reconsider && counts.is_zero()) continue;
     add(label(static_cast<SweepKind>(kind)), counts);
     all.add(counts);
   }

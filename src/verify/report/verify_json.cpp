@@ -85,6 +85,10 @@ constexpr auto exploration = object(
                 "The exploration ended as soon as all its properties were decided; what is said "
                 "of it is what it had visited.",
                 &Exploration::decided),
+            optional("left_out", always_true,
+                     "There were moves after which more requests would be suspended than 'assume' "
+                     "lets; they were left out.",
+                     &Exploration::has_left_out),
             member("states", integer(1), "Number of states that were found.", &Exploration::states),
             member("transitions", count, "Number of pairs of a visited state and a move in it.",
                    &Exploration::transitions),

@@ -369,17 +369,27 @@ void add_violation(const VerifyResult& result, const VerifyPart& part,
   if (!answer.verdict.script.empty()) text.add("\n" + reported.replay->text);
 }
 
-/// What ended an exploration before all states were visited.
-void add_end(const VerifyResult& result, const Exploration& exploration, Text& text) {
+/// "exploration of groups 0, 2"
+std::string title_of(const Exploration& exploration) {
   const std::string groups =
       join(exploration.groups, ", ", [](GroupId group) { return std::to_string(group); });
-  const std::string title =
-      groups.empty() ? "exploration of the situation alone"
-                     : fmt::format("exploration of {} {}",
-                                   exploration.groups.size() == 1 ? "group" : "groups", groups);
+  return groups.empty() ? "exploration of the situation alone"
+                        : fmt::format("exploration of {} {}",
+                                      exploration.groups.size() == 1 ? "group" : "groups", groups);
+}
+
+/// That an exploration did not make all moves.
+void add_left_out(const Exploration& exploration, Text& text) {
+  text.line("");
+  text.line(text.style().paint(text.style().warning, title_of(exploration)) +
+            ": moves after which more requests would be suspended than 'assume' lets are left out");
+}
+
+/// What ended an exploration before all states were visited.
+void add_end(const VerifyResult& result, const Exploration& exploration, Text& text) {
   const std::string_view color = exploration.decided ? text.style().faint : text.style().warning;
   text.line("");
-  text.line(text.style().paint(color, title) + ": " +
+  text.line(text.style().paint(color, title_of(exploration)) + ": " +
             (exploration.decided
                  ? "ended as all its properties were decided; it counts what it visited"
                  : describe_limit(result, exploration)));
@@ -396,6 +406,7 @@ void add_properties(const VerifyResult& result, const VerifyPart& part, Text& te
   }
   for (const Exploration& exploration : part.verification.explorations) {
     if (!exploration.complete) add_end(result, exploration, text);
+    if (exploration.has_left_out) add_left_out(exploration, text);
   }
 }
 

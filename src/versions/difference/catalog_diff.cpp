@@ -178,6 +178,7 @@ CatalogChange to_change(ChangeKind kind, ChangeSubject subject, const Fact& fact
   change.subject = subject;
   switch (subject) {
     case ChangeSubject::task:
+    case ChangeSubject::limit:
       change.task = fact.first;
       break;
     case ChangeSubject::variable:
@@ -217,8 +218,8 @@ std::string_view name_of(ChangeKind kind) {
 }
 
 std::string_view name_of(ChangeSubject subject) {
-  constexpr std::array<std::string_view, 6> names{"task",        "behavior", "performs",
-                                                  "requirement", "variable", "exclusion"};
+  constexpr std::array<std::string_view, 7> names{"task",     "behavior", "performs", "requirement",
+                                                  "variable", "limit",    "exclusion"};
   return names[static_cast<std::size_t>(subject)];
 }
 
@@ -241,7 +242,7 @@ CatalogDiff compare_catalogs(const CompiledCatalog& before, const CompiledCatalo
   }
   for (const ChangeSubject subject :
        {ChangeSubject::task, ChangeSubject::behavior, ChangeSubject::performs,
-        ChangeSubject::requirement, ChangeSubject::variable}) {
+        ChangeSubject::requirement, ChangeSubject::variable, ChangeSubject::limit}) {
     compare_facts(subject, old_names, new_names, diff.changes);
   }
   compare_exclusions(old_names, new_names, diff);

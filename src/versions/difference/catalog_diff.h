@@ -35,6 +35,7 @@ struct CatalogChange {
     performs,     ///< `behavior` performs `task`; attribute "suitability"
     requirement,  ///< `behavior` requires `task`; attribute "minimum_performance"
     variable,     ///< situation variable `variable`
+    limit,        ///< of the tasks, listed by name in `task`, several may run; attribute "at_most"
     exclusion     ///< `task` excludes `other_task`, whose name comes later
   };
   Kind kind = Kind::changed;

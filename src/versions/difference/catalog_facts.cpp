@@ -19,6 +19,19 @@ Attributes attributes_of_task(const CompiledCatalog& catalog, std::uint32_t inde
       {"reactive_start", task.reactive_start != 0},
       {"start_on_request", task.start_on_request != 0},
       {"timeout", unless_zero(task.timeout)}};
+  const TaskRules rules = catalog.rules_of(catalog.task_ids[index]);
+  const auto flag_unless = [](std::uint8_t flag, std::uint8_t by_default) {
+    return flag == by_default ? AttributeValue() : AttributeValue(flag != 0);
+  };
+  attributes.push_back({"requestable", flag_unless(rules.requestable, 1)});
+  attributes.push_back({"resume", flag_unless(rules.resume, 0)});
+  attributes.push_back({"improve", rules.improve == Improve::at_events
+                                       ? AttributeValue()
+                                       : AttributeValue(std::string(word_of(rules.improve)))});
+  attributes.push_back(
+      {"reactive_priority", rules.reactive_priority == 0
+                                ? AttributeValue()
+                                : AttributeValue(std::to_string(rules.reactive_priority))});
   for (Parameter& parameter : parameters_of(catalog, index)) {
     std::string name = concat(parameter_prefix, parameter.name);
     attributes.push_back({std::move(name), describe_allowed(std::move(parameter))});
@@ -54,7 +67,10 @@ Attributes attributes_of_behavior(const NamedCatalog& named, std::uint32_t index
   const BehaviorId id = catalog.behavior_ids[index];
   Attributes attributes{
       {"package", package.empty() ? AttributeValue() : AttributeValue(std::string(package))},
-      {"timeout", unless_zero(catalog.behaviors[id].timeout)}};
+      {"timeout", unless_zero(catalog.behaviors[id].timeout)},
+      {"retry", catalog.retry_of(id) == Retry::at_events
+                    ? AttributeValue()
+                    : AttributeValue(std::string(word_of(catalog.retry_of(id))))}};
   for (NamedCondition condition : conditions_of(catalog, id)) {
     condition.variable = named.variables[*catalog.find_variable(condition.variable)];
     attributes.push_back(attribute_of(condition));
@@ -77,10 +93,20 @@ Attributes attributes_of_variable(const CompiledCatalog& catalog, std::uint32_t 
           has_own ? set_of_values("values", std::move(values)) : Attribute{"values", {}}};
 }
 
+void name_limits(NamedCatalog& named) {
+  named.limits.clear();
+  for (std::size_t limit = 0; limit < named.catalog.limits.size(); ++limit) {
+    std::vector<std::string> tasks;
+    for (const TaskId task : named.catalog.limited[limit]) tasks.emplace_back(named.tasks[task]);
+    std::sort(tasks.begin(), tasks.end());
+    named.limits.push_back(join(tasks, ", "));
+  }
+}
+
 }  // namespace
 
 NamedCatalog with_own_names(const CompiledCatalog& catalog) {
-  NamedCatalog named{catalog, {}, {}, {}};
+  NamedCatalog named{catalog, {}, {}, {}, {}};
   for (TaskId task(0); task < catalog.tasks.size(); ++task) {
     named.tasks.push_back(catalog.name_of_task(task));
   }
@@ -90,6 +116,7 @@ NamedCatalog with_own_names(const CompiledCatalog& catalog) {
   for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
     named.variables.push_back(catalog.name_of_variable(variable));
   }
+  name_limits(named);
   return named;
 }
 
@@ -103,6 +130,7 @@ NamedCatalog with_new_names(const CompiledCatalog& before, const CompiledCatalog
   for (const auto& [from, to] : renames.variables) {
     named.variables[from] = after.name_of_variable(to);
   }
+  name_limits(named);
   return named;
 }
 
@@ -152,6 +180,12 @@ std::vector<Fact> facts(const NamedCatalog& named, CatalogChange::Subject subjec
       for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
         result.push_back(
             {named.variables[variable], {}, attributes_of_variable(catalog, variable)});
+      }
+      break;
+    case ChangeSubject::limit:
+      for (std::size_t limit = 0; limit < catalog.limits.size(); ++limit) {
+        result.push_back(
+            {named.limits[limit], {}, {{"at_most", std::to_string(catalog.limits[limit].most)}}});
       }
       break;
     case ChangeSubject::exclusion:

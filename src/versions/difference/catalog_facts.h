@@ -29,6 +29,7 @@ struct NamedCatalog {
   std::vector<std::string_view> tasks;      ///< by TaskId
   std::vector<std::string_view> behaviors;  ///< by BehaviorId
   std::vector<std::string_view> variables;
+  std::vector<std::string> limits;  ///< by limit: its tasks by name
 };
 [[nodiscard]] NamedCatalog with_own_names(const CompiledCatalog& catalog);
 /// The older catalog, with the names that the newer one has for what was renamed.

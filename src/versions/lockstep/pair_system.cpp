@@ -19,7 +19,9 @@ void PairSystem::Side::take(const Model::Choice* choice, const Environments::Act
 
 PairSystem::PairSystem(const ModelPair& models, const PairedBits& bits,
                        const ComparisonScope& scope, const Stepper::Options& options)
-    : ControlSystem(bits.of_new.count, bits.kinds, models.new_model.assumptions().faults),
+    : ControlSystem(bits.of_new.count, bits.kinds, models.new_model.assumptions().faults,
+                    !models.new_model.has_repairs_that_decide() &&
+                        !models.old_model.has_repairs_that_decide()),
       models_(models),
       bits_(bits),
       new_(models.new_model, options, bits.of_new, sets_),
@@ -36,7 +38,9 @@ PairSystem::PairSystem(const ModelPair& models, const PairedBits& bits,
 
 void PairSystem::add_moves() {
   for (const ModelPair::PairedMove& move : models_.moves) {
-    if (move.move.kind != Move::Kind::fault && move.move.kind != Move::Kind::repair) {
+    const bool is_of_all_faults = move.move.kind == Move::Kind::fault ||
+                                  (move.move.kind == Move::Kind::repair && faults_.has_repairs());
+    if (!is_of_all_faults) {
       add_actions(move);
       continue;
     }
@@ -51,9 +55,13 @@ void PairSystem::add_actions(const ModelPair::PairedMove& move) {
   Effects of_old;
   if (move.of_new != nullptr) of_new = new_.controls.environments().effects_of(*move.of_new);
   if (move.of_old != nullptr) of_old = old_.controls.environments().effects_of(*move.of_old);
-  // One that only one side has does nothing to the environment.
+  // One that only one side has does nothing to the environment, but for repairs.
   if (of_new.empty()) of_new.resize(of_old.size());
   if (of_old.empty()) of_old.resize(of_new.size());
+  if (move.move.kind == Move::Kind::repair) {
+    if (move.of_new == nullptr) of_new.front().condition = Diagrams::empty;
+    if (move.of_old == nullptr) of_old.front().condition = Diagrams::empty;
+  }
   for (std::size_t place = 0; place < of_new.size(); ++place) {
     const Environments::ActionEffect& new_effect = of_new[place];
     const Environments::ActionEffect& old_effect = of_old[place];
@@ -63,7 +71,13 @@ void PairSystem::add_actions(const ModelPair::PairedMove& move) {
     if (condition == Diagrams::empty) continue;
     moves_.push_back({move.of_new != nullptr ? new_effect.move : old_effect.move,
                       static_cast<std::uint32_t>(actions_.size()), none});
-    actions_.push_back({condition, new_effect.changes, new_effect.values});
+    Action& action = actions_.emplace_back();
+    action.condition = condition;
+    action.changes = new_effect.changes || old_effect.changes;
+    action.values = new_effect.values;
+    if (move.move.kind == Move::Kind::repair) {
+      action.values = both_values(new_effect.values, old_effect.values);
+    }
     paired_.push_back({move.of_new, move.of_old, new_effect, old_effect});
   }
 }
@@ -115,12 +129,32 @@ ControlSystem::MoveResult PairSystem::compare() {
   old_.trace.events.clear();
   is_compared_ = is_compared_ || answers_.is_compared();
   MoveResult result;
+  if (has_too_many_suspended()) {
+    result.exists = false;
+    return result;
+  }
   result.note = note_of(answers_.notes());
   if (!answers_.is_alike()) return result;
+  result.values = both_values(new_.controls.changes_of_x(), old_.controls.changes_of_x());
   new_.controls.pack_after(packed_.data());
   old_.controls.pack_after(packed_.data() + models_.new_model.packed_words());
   result.control = packed_.data();
   return result;
+}
+
+Diagrams::ValuesNumber PairSystem::both_values(Diagrams::ValuesNumber a, Diagrams::ValuesNumber b) {
+  if (a == 0 || b == 0) return std::max(a, b);
+  const auto [entry, is_new] = both_values_.try_emplace({a, b}, 0);
+  if (is_new) entry->second = sets_.keep_both(a, b);
+  return entry->second;
+}
+
+bool PairSystem::has_too_many_suspended() const {
+  const auto has = [](const Model& model, const Side& side) {
+    const auto most = model.assumptions().most_suspended;
+    return most && side.controls.stepper().suspended_after() > *most;
+  };
+  return has(models_.new_model, new_) || has(models_.old_model, old_);
 }
 
 std::uint32_t PairSystem::note_of(const std::vector<AnswerComparison::Note>& notes) {

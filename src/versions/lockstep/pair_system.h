@@ -66,6 +66,9 @@ class PairSystem final : public ControlSystem {
   void add_moves();
   void add_actions(const ModelPair::PairedMove& move);
   [[nodiscard]] MoveResult compare();
+  [[nodiscard]] Diagrams::ValuesNumber both_values(Diagrams::ValuesNumber a,
+                                                   Diagrams::ValuesNumber b);
+  [[nodiscard]] bool has_too_many_suspended() const;
   [[nodiscard]] std::uint32_t note_of(const std::vector<AnswerComparison::Note>& notes);
 
   const ModelPair& models_;
@@ -77,6 +80,8 @@ class PairSystem final : public ControlSystem {
   std::vector<PairedAction> paired_;   ///< by action
   std::vector<std::uint32_t> first_;   ///< control of the new catalog, then that of the old one
   std::vector<std::uint32_t> packed_;  ///< after the move
+  std::map<std::pair<Diagrams::ValuesNumber, Diagrams::ValuesNumber>, Diagrams::ValuesNumber>
+      both_values_;
   std::vector<std::vector<std::uint32_t>> tasks_of_notes_{1};
   std::map<std::vector<std::uint32_t>, std::uint32_t> notes_;  ///< by tasks
 };

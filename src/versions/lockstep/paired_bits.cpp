@@ -15,6 +15,7 @@ PairedBits::PairedBits(const ModelPair& models) {
   of_old.fault.resize(models.old_model.layout().faulty_count, none);
   add_variables(models);
   add_own_flags(models);
+  add_failures(models);
   add_faults(models);
   of_old.count = of_new.count;
 }
@@ -61,6 +62,15 @@ void PairedBits::add_own_flags(const ModelPair& models) {
     if (other == old_flags.end()) continue;
     of_new.own[flag] = of_new.count++;
     of_old.own[static_cast<std::size_t>(other - old_flags.begin())] = of_new.own[flag];
+  }
+}
+
+void PairedBits::add_failures(const ModelPair& models) {
+  for (std::uint32_t left = models.new_model.layout().failed_count; left > 0; --left) {
+    of_new.failed.push_back(of_new.count++);
+  }
+  for (std::uint32_t left = models.old_model.layout().failed_count; left > 0; --left) {
+    of_old.failed.push_back(of_new.count++);
   }
 }
 

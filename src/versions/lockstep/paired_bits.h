@@ -11,7 +11,8 @@ namespace cbc {
 
 /// One string of bits for the environments of two models: variables and own flags that both have
 /// are the same bits, and so are the faults that come by a move of both. What only one has never
-/// changes. A variable that has different values at first has a code of its own for that.
+/// changes, but each has its own X. A variable that has different values at first has a code of its
+/// own for that.
 struct PairedBits {
   explicit PairedBits(const ModelPair& models);
 
@@ -24,6 +25,7 @@ struct PairedBits {
  private:
   void add_variables(const ModelPair& models);
   void add_own_flags(const ModelPair& models);
+  void add_failures(const ModelPair& models);
   void add_faults(const ModelPair& models);
 };
 

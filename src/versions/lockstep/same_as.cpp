@@ -287,6 +287,7 @@ Assumptions common_assumptions(const CompiledCatalog& old_catalog,
         old_catalog.tasks[other].start_on_request == 0) {
       continue;
     }
+    if (new_catalog.rules_of(task).requestable == 0) continue;
     assumptions.start.push_back({task, {1}});
     assumptions.stop.push_back(task);
   }
@@ -301,7 +302,10 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
   CatalogComparison result;
   const TranslationPair translations(old_catalog, new_catalog, scope.renames);
   result.names = names_of(old_catalog, new_catalog, translations, scope.renames);
-  const Assumptions old_assumptions = translate(assumptions, translations.to_old);
+  Assumptions old_assumptions = translate(assumptions, translations.to_old);
+  std::erase_if(old_assumptions.start, [&old_catalog](const Assumptions::Start& start) {
+    return old_catalog.rules_of(start.task).requestable == 0;
+  });
   // What only the new catalog has does not move.
   const Assumptions new_assumptions = translate(old_assumptions, translations.to_new);
   if (!scope.only_first) {

@@ -28,28 +28,30 @@ struct DirectDifference {
     value,     ///< the same, of a variable
     timeout,
     execution_goal,
+    requestable,
     parameter
   };
   Kind kind = Kind::task;
   std::string line;  ///< "DOCK1: timeout 5 s in old.yaml, none in new.yaml"
 };
 [[nodiscard]] constexpr std::string_view name_of(DirectDifference::Kind kind) {
-  constexpr std::array<std::string_view, 7> names = {
-      "task", "behavior", "variable", "value", "timeout", "execution_goal", "parameter"};
+  constexpr std::array<std::string_view, 8> names = {"task",        "behavior", "variable",
+                                                     "value",       "timeout",  "execution_goal",
+                                                     "requestable", "parameter"};
   return names.at(static_cast<std::size_t>(kind));
 }
 
 /// How an event is decided differently about one task.
 struct TaskDifference {
   /// What differs, the most important first.
-  enum class Aspect : std::uint8_t { outcome, running, event, change, stop, queue };
+  enum class Aspect : std::uint8_t { outcome, running, event, change, stop, queue, suspended };
   Aspect aspect = Aspect::outcome;
   std::string task;  ///< its name, in the new catalog if that has it
   std::string line;  ///< "LOCALIZE: FLOAT_GNSS in place of LIDAR_SLAM"
 };
 [[nodiscard]] constexpr std::string_view name_of(TaskDifference::Aspect aspect) {
-  constexpr std::array<std::string_view, 6> names = {"outcome", "running", "event",
-                                                     "change",  "stop",    "queue"};
+  constexpr std::array<std::string_view, 7> names = {"outcome", "running", "event",    "change",
+                                                     "stop",    "queue",   "suspended"};
   return names.at(static_cast<std::size_t>(aspect));
 }
 

@@ -114,6 +114,8 @@ void AnswerComparison::compare_events(const std::vector<Happening>& ours,
 
 bool AnswerComparison::is_in_both(const Happening& event, bool is_new) const {
   if (event.verb == Verb::situation) return true;
+  // What it does is compared with what the other one does until the next event of both.
+  if (event.verb == Verb::reconsider) return false;
   if (event.verb == Verb::finish) {
     return models_.is_compared(event.subject, is_new);
   }
@@ -143,6 +145,7 @@ void AnswerComparison::compare_answers(const Happening& ours, const Happening& t
   if (differences_ == Differences::expectable) return;
   compare_changes(ours, theirs);
   compare_stops(ours, theirs);
+  compare_suspended(ours, theirs);
   compare_queues(ours.queue, theirs.queue, ours.waiting, theirs.waiting);
 }
 
@@ -240,6 +243,29 @@ void AnswerComparison::compare_stops(const Happening& ours, const Happening& the
     if (find(ours, models_.tasks[pair].first) != ours.stopped.end()) continue;
     note(pair, Aspect::stop,
          [&] { return fmt::format("{} stops in {} only", label_of(pair), file(false)); });
+  }
+}
+
+void AnswerComparison::compare_suspended(const Happening& ours, const Happening& theirs) {
+  const auto priority_in = [](const Model& model, const Happening& event, std::uint32_t task) {
+    const auto found = std::find_if(event.suspended.begin(), event.suspended.end(),
+                                    [task](const auto& one) { return one.first == task; });
+    return found == event.suspended.end() ? 0 : model.priority_of(found->second);
+  };
+  if (ours.suspended.empty() && theirs.suspended.empty()) return;
+  for (std::uint32_t pair = 0; pair < models_.tasks.size(); ++pair) {
+    const auto [of_new, of_old] = models_.tasks[pair];
+    const std::int32_t our_priority = priority_in(models_.new_model, ours, of_new);
+    const std::int32_t their_priority = priority_in(models_.old_model, theirs, of_old);
+    if (our_priority == their_priority) continue;
+    note(pair, Aspect::suspended, [&, pair = pair] {
+      if (our_priority != 0 && their_priority != 0) {
+        return fmt::format("{}: the suspended request has priority {} in {}, {} in {}",
+                           label_of(pair), their_priority, file(false), our_priority, file(true));
+      }
+      return fmt::format("the request of {} is suspended in {} only", label_of(pair),
+                         file(our_priority != 0));
+    });
   }
 }
 

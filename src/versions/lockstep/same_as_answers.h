@@ -51,6 +51,7 @@ class AnswerComparison {
   void compare_changes(const Happening& ours, const Happening& theirs);
   void compare_stops(const Happening& ours, const Happening& theirs);
   void compare_running(const std::uint16_t* new_cells, const std::uint16_t* old_cells);
+  void compare_suspended(const Happening& ours, const Happening& theirs);
   void compare_queues(Part new_queue, Part old_queue, Part new_waiting, Part old_waiting);
 
   [[nodiscard]] bool is_in_both(const Happening& event, bool is_new) const;

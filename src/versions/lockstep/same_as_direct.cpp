@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -62,10 +63,12 @@ class AttributeComparison {
   /// Others show in events.
   void add_attributes(const CatalogChange& of_task) {
     for (const AttributeChange& change : of_task.attributes) {
-      const bool is_goal = change.name == "execution_goal";
-      if (!is_goal && !change.name.starts_with(parameter_prefix)) continue;
-      add(is_goal ? Kind::execution_goal : Kind::parameter, of_task.task, printable(change.name),
-          change.before, change.after);
+      const auto kind = change.name == "execution_goal"             ? Kind::execution_goal
+                        : change.name == "requestable"              ? Kind::requestable
+                        : change.name.starts_with(parameter_prefix) ? std::optional(Kind::parameter)
+                                                                    : std::nullopt;
+      if (!kind) continue;
+      add(*kind, of_task.task, printable(change.name), change.before, change.after);
     }
   }
 

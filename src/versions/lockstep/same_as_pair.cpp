@@ -118,9 +118,24 @@ void ModelPair::add_moves() {
     const auto found = of_old.find(key);
     if (found != of_old.end()) {
       moves.push_back({&choice, found->second, choice.move});
-    } else if (choice.move.kind == Move::Kind::due) {
+    } else if (choice.move.kind == Move::Kind::due ||
+               (choice.move.kind == Move::Kind::repair && key.second.front().first != none)) {
       moves.push_back({&choice, nullptr, choice.move});
     }
+    of_old.erase(key);
+  }
+  for (const Model::Choice& choice : old_model.moves()) {
+    if (choice.move.kind != Move::Kind::repair) continue;
+    if (!of_old.contains(key_of(old_model, choice, nullptr))) continue;
+    const BehaviorId id = translations.to_new.behaviors[old_model.behaviors()[choice.subject].id];
+    if (id == none || new_model.find_behavior(id) == none) continue;
+    Move move = choice.move;
+    move.subject = new_model.catalog().behaviors[id].catalog_index;
+    const auto place = std::find_if(moves.begin(), moves.end(), [&](const PairedMove& other) {
+      return other.move.kind > Move::Kind::repair ||
+             (other.move.kind == Move::Kind::repair && other.move.subject > move.subject);
+    });
+    moves.insert(place, {nullptr, &choice, move});
   }
   if (new_model.reactive().empty() && !old_model.reactive().empty()) {
     moves.push_back({nullptr, &old_model.moves().back(), old_model.moves().back().move});

@@ -43,7 +43,7 @@ struct ModelPair {
   const TranslationPair& translations;
   Model old_model;
   Model new_model;
-  /// The same move in both; only one of them may have a queue.
+  /// The same move in both; only one of them may have a queue, or remember a failure.
   struct PairedMove {
     const Model::Choice* of_new = nullptr;  ///< null: the new one does not have it
     const Model::Choice* of_old = nullptr;  ///< null: the old one does not have it

@@ -214,6 +214,12 @@ Step translate(const Step& step, const CompiledCatalog& from, const CompiledCata
       for (std::uint32_t& one : running.behaviors) one = behavior(one);
     }
     for (std::uint32_t& stopped : result.expect->stopped) stopped = task(stopped);
+    if (auto& waiting = result.expect->suspended) {
+      for (std::uint32_t& one : *waiting) one = task(one);
+    }
+    if (auto& failed = result.expect->failed) {
+      for (std::uint32_t& one : *failed) one = behavior(one);
+    }
     return result;
   }
   switch (form_of(result.verb).subject) {

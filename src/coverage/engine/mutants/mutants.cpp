@@ -25,9 +25,12 @@ namespace {
 
 /// In the order of the enumerators.
 constexpr std::array<std::string_view, Mutant::kinds> mutant_kinds = {
-    "behavior_removed",        "suitability_lowered",   "requirement_removed",   "minimum_removed",
-    "condition_removed",       "exclusion_removed",     "exclusion_narrowed",    "timeout_removed",
-    "start_on_request_turned", "reactive_start_turned", "execution_goal_turned",
+    "behavior_removed",      "suitability_lowered",       "requirement_removed",
+    "minimum_removed",       "condition_removed",         "exclusion_removed",
+    "exclusion_narrowed",    "timeout_removed",           "start_on_request_turned",
+    "reactive_start_turned", "execution_goal_turned",     "improve_removed",
+    "resume_removed",        "reactive_priority_removed", "retry_removed",
+    "limit_raised",
 };
 
 class MutantFinder {
@@ -97,6 +100,9 @@ class MutantFinder {
       add_for_behavior(Mutant::Kind::condition_removed, index, condition.range).variable =
           condition.variable;
     }
+    if (behavior.retry != Retry::at_events) {
+      add_for_behavior(Mutant::Kind::retry_removed, index, behavior.retry_range);
+    }
     if (behavior.timeout && performs_any_to_achieve(behavior)) {
       add_for_behavior(Mutant::Kind::timeout_removed, index, behavior.timeout_range);
     }
@@ -142,11 +148,13 @@ class MutantFinder {
       add_for_task(Mutant::Kind::timeout_removed, index,
                    task.own_timeout_range.value_or(task.range));
     }
-    // A task with both flags is refused.
-    if (!task.reactive_start) {
+    add_changes_of_rules(index);
+    // A task with both flags is refused, and so are a task that starts on request and that nobody
+    // may request, and one that resumes and starts by itself.
+    if (!task.reactive_start && task.rules.requestable != 0) {
       add_for_task(Mutant::Kind::start_on_request_turned, index, task.range);
     }
-    if (!task.start_on_request) {
+    if (!task.start_on_request && task.rules.resume == 0) {
       add_for_task(Mutant::Kind::reactive_start_turned, index, task.range);
     }
     // The goal decides nothing but whether timeouts count. The other way is their removal.
@@ -157,6 +165,19 @@ class MutantFinder {
     }
   }
 
+  void add_changes_of_rules(TaskIndex index) {
+    const Task& task = catalog_.tasks[index];
+    if (task.rules.improve != Improve::at_events) {
+      add_for_task(Mutant::Kind::improve_removed, index, task.improve_range);
+    }
+    if (task.rules.resume != 0) {
+      add_for_task(Mutant::Kind::resume_removed, index, task.own_resume_range.value_or(task.range));
+    }
+    if (task.rules.reactive_priority > 0) {
+      add_for_task(Mutant::Kind::reactive_priority_removed, index, task.reactive_priority_range);
+    }
+  }
+
   void add_exclusions() {
     std::set<std::pair<TaskIndex, TaskIndex>> pairs;
     for (std::uint32_t place = 0; place < catalog_.exclusivity.size(); ++place) {
@@ -164,11 +185,15 @@ class MutantFinder {
       const std::vector<TaskIndex> tasks = distinct_tasks(list);
       for (auto a = tasks.begin(); a != tasks.end(); ++a) {
         for (auto b = a + 1; b != tasks.end(); ++b) {
-          if (pairs.emplace(*a, *b).second) add_pair(list, *a, *b);
+          if (list.at_most == 1 && pairs.emplace(*a, *b).second) add_pair(list, *a, *b);
         }
         // Of two tasks it would be the pair.
         if (tasks.size() <= 2) continue;
+        if (list.at_most >= tasks.size()) continue;
         add_for_task(Mutant::Kind::exclusion_narrowed, *a, range_in(list, *a)).list = place;
+      }
+      if (list.at_most > 1 && list.at_most < tasks.size()) {
+        add_for_task(Mutant::Kind::limit_raised, tasks.front(), list.at_most_range).list = place;
       }
     }
   }
@@ -206,7 +231,7 @@ void remove_pair(std::vector<ExclusivityList>& lists, TaskIndex a, TaskIndex b) 
     const auto has = [&](TaskIndex task) {
       return std::find(list.tasks.begin(), list.tasks.end(), task) != list.tasks.end();
     };
-    if (has(a) && has(b)) {
+    if (list.at_most == 1 && has(a) && has(b)) {
       remove_from(result.emplace_back(list), a);
       remove_from(list, b);
     }
@@ -296,9 +321,25 @@ Catalog mutate(const Catalog& catalog, const Mutant& mutant) {
       break;
     case Mutant::Kind::reactive_start_turned:
       task().reactive_start = !task().reactive_start;
+      task().rules.reactive_priority = 0;
       break;
     case Mutant::Kind::execution_goal_turned:
       task().execution_goal = ExecutionGoal::achieve_goal;
+      break;
+    case Mutant::Kind::improve_removed:
+      task().rules.improve = Improve::at_events;
+      break;
+    case Mutant::Kind::resume_removed:
+      task().rules.resume = 0;
+      break;
+    case Mutant::Kind::reactive_priority_removed:
+      task().rules.reactive_priority = 0;
+      break;
+    case Mutant::Kind::retry_removed:
+      behavior().retry = Retry::at_events;
+      break;
+    case Mutant::Kind::limit_raised:
+      ++changed.exclusivity[mutant.list].at_most;
       break;
   }
   return changed;
@@ -341,6 +382,22 @@ std::string describe(const Catalog& catalog, const Mutant& mutant) {
       return describe_flag("reactive_start", task, catalog.tasks[mutant.task].reactive_start);
     case Mutant::Kind::execution_goal_turned:
       return fmt::format("execution_goal of {}: achieve_goal instead of keep_running", task);
+    case Mutant::Kind::improve_removed:
+      return fmt::format("improve of {}: at_events instead of {}", task,
+                         word_of(catalog.tasks[mutant.task].rules.improve));
+    case Mutant::Kind::resume_removed:
+      return fmt::format("{} does not resume", task);
+    case Mutant::Kind::reactive_priority_removed:
+      return fmt::format("reactive_priority of {}: 0 instead of {}", task,
+                         catalog.tasks[mutant.task].rules.reactive_priority);
+    case Mutant::Kind::retry_removed:
+      return fmt::format("retry of {}: at_events instead of {}", behavior,
+                         word_of(catalog.behaviors[mutant.behavior].retry));
+    case Mutant::Kind::limit_raised:
+      return fmt::format("at most {} of the list of {} tasks instead of {}",
+                         catalog.exclusivity[mutant.list].at_most + 1,
+                         distinct_tasks(catalog.exclusivity[mutant.list]).size(),
+                         catalog.exclusivity[mutant.list].at_most);
   }
   return {};
 }

@@ -21,19 +21,24 @@ namespace cbc {
 /// kind; everything else is `none`. Numbers are places in the Catalog.
 struct Mutant {
   enum class Kind : std::uint8_t {
-    behavior_removed,         ///< behavior, which can never be active
-    suitability_lowered,      ///< behavior and its task, to `suitability`, below that of `other`
-    requirement_removed,      ///< behavior and the task that it requires
-    minimum_removed,          ///< task; of a requirement, also the behavior
-    condition_removed,        ///< behavior and variable
-    exclusion_removed,        ///< task and other, of which it is the first in the catalog
-    exclusion_narrowed,       ///< task, in `list`
-    timeout_removed,          ///< task, or behavior with a timeout of its own
-    start_on_request_turned,  ///< task
-    reactive_start_turned,    ///< task
-    execution_goal_turned     ///< task, to achieve_goal, so that it may time out
+    behavior_removed,           ///< behavior, which can never be active
+    suitability_lowered,        ///< behavior and its task, to `suitability`, below that of `other`
+    requirement_removed,        ///< behavior and the task that it requires
+    minimum_removed,            ///< task; of a requirement, also the behavior
+    condition_removed,          ///< behavior and variable
+    exclusion_removed,          ///< task and other, of which it is the first in the catalog
+    exclusion_narrowed,         ///< task, in `list`
+    timeout_removed,            ///< task, or behavior with a timeout of its own
+    start_on_request_turned,    ///< task
+    reactive_start_turned,      ///< task
+    execution_goal_turned,      ///< task, to achieve_goal, so that it may time out
+    improve_removed,            ///< task
+    resume_removed,             ///< task
+    reactive_priority_removed,  ///< task
+    retry_removed,              ///< behavior
+    limit_raised                ///< one more task of `list` may run; task is one of them
   };
-  static constexpr std::size_t kinds = 11;
+  static constexpr std::size_t kinds = 16;
   static constexpr std::uint32_t none = UINT32_MAX;
 
   Kind kind = Kind::behavior_removed;
