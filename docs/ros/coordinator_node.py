@@ -160,9 +160,11 @@ class Coordinator:
             "time": robot.now,
             "running": robot.running,
             "requests": robot.requests,
+            "suspended": robot.suspended,
             "queue": robot.queue,
             "active": robot.active,
             "faulty": robot.faulty,
+            "failed": robot.failed,
             "unavailable": robot.unavailable,
             "variables": robot.variables,
         }))
