@@ -122,10 +122,9 @@ bool Explainer::is_in_group(const Subject& subject, GroupId group) const {
 
 void Explainer::explain_displaced(const Circumstances& circumstances, Explanation& explanation) {
   for (const LocalTask task : circumstances.problem->requests) {
-    const TaskId waiting = catalog_.group_tasks[circumstances.trigger.group] + task;
-    if (circumstances.state.is_suspended(waiting)) continue;  // it did not run before
-    if (explanation.chosen.assignment[task] != none) continue;
     const TaskId id = catalog_.group_tasks[circumstances.trigger.group] + task;
+    if (circumstances.state.is_suspended(id)) continue;  // it did not run before
+    if (explanation.chosen.assignment[task] != none) continue;
     const Demands runs{{Demand::Kind::run, id, none}};
     explanation.displaced.push_back(
         {id, why_not(circumstances, explanation.chosen, std::span(&runs, 1))});

@@ -102,29 +102,10 @@ bool RelaxedTrail::follow_running(LocalTask task) {
   }
   if (catalog_.limits.empty()) return true;
   const std::span<const std::uint32_t> limits = limits_[task];
-  return std::all_of(limits.begin(), limits.end(),
-                     [this](std::uint32_t index) { return close_limited(index); });
-}
-
-/// Where as many tasks of a limit run as may, no other one does.
-bool RelaxedTrail::close_limited(std::uint32_t index) {
-  const std::uint32_t limit = constraints_[index].limit;
-  const auto members = catalog_.limited[limit];
-  const std::uint32_t most = catalog_.limits[limit].most;
-  effort_ += members.size();
-  running_.clear();
-  for (const TaskId member : members) {
-    const Literal literal = runs(member - first_task_);
-    if (running_.size() < most && is_true(literal)) running_.push_back(literal);
-  }
-  if (running_.size() < most) return true;
-  Cause cause = store(running_);
-  cause.constraint = index;
-  return std::all_of(members.begin(), members.end(), [&](TaskId member) {
-    const Literal literal = runs(member - first_task_);
-    const bool is_in_reason =
-        std::find(running_.begin(), running_.end(), literal) != running_.end();
-    return is_in_reason || imply(negate(literal), cause);
+  return std::all_of(limits.begin(), limits.end(), [this](std::uint32_t index) {
+    const std::uint32_t limit = constraints_[index].limit;
+    effort_ += catalog_.limited[limit].size();
+    return close_limited(limit, index);
   });
 }
 

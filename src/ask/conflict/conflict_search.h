@@ -64,7 +64,6 @@ class RelaxedTrail final : public Trail {
   };
 
   void index_constraints();
-  [[nodiscard]] bool close_limited(std::uint32_t index);
   [[nodiscard]] bool follow_running(LocalTask task) override;
   [[nodiscard]] bool follow_not_running(LocalTask task) override;
   [[nodiscard]] bool follow_value(LocalTask task, ValueId value) override;
@@ -82,7 +81,6 @@ class RelaxedTrail final : public Trail {
   std::vector<std::uint32_t> origin_begins_;   ///< by origin, and the end
   std::vector<std::uint32_t> origin_reasons_;
   std::uint64_t effort_ = 0;  ///< constraints
-  std::vector<Literal> running_;
 };
 
 /// Whether a problem has a solution; unknown at a limit of effort.

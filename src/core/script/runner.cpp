@@ -52,11 +52,11 @@ std::string how_it_runs(const CompiledCatalog& catalog, const State& state, Task
   return fmt::format("it runs with {}", quote(catalog.name_of_behavior(state.behavior(task))));
 }
 
-std::string names_or_none(const CompiledCatalog& catalog,
-                          const std::vector<std::uint32_t>& behaviors) {
-  if (behaviors.empty()) return "none";
-  return join(behaviors, ", ",
-              [&](std::uint32_t behavior) { return quote(catalog.behavior_names[behavior]); });
+/// `nothing`: what to say where there is none.
+std::string names_or(const std::vector<std::uint32_t>& numbers, const Texts& names,
+                     std::string_view nothing) {
+  if (numbers.empty()) return std::string(nothing);
+  return join(numbers, ", ", [&](std::uint32_t number) { return quote(names[number]); });
 }
 
 /// Longer lists say only what differs.
@@ -70,7 +70,7 @@ void add_names(std::string& text, std::string_view label, const CompiledCatalog&
   if (behaviors.empty()) return;
   const std::size_t count = behaviors.size();
   behaviors.resize(std::min(count, most_differing));
-  text += fmt::format("; {}: {}", label, names_or_none(catalog, behaviors));
+  text += fmt::format("; {}: {}", label, names_or(behaviors, catalog.behavior_names, "none"));
   if (count > most_differing) text += fmt::format(" and {} more", count - most_differing);
 }
 
@@ -116,51 +116,50 @@ void check_stopped(const std::vector<std::uint32_t>& stopped, const CompiledCata
   mismatches.push_back(std::move(text));
 }
 
-void check_suspended(std::vector<std::uint32_t> expected, const CompiledCatalog& catalog,
-                     const State& state, std::vector<std::string>& mismatches) {
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t task = 0; task < catalog.task_names.size(); ++task) {
-    if (state.is_suspended(catalog.task_ids[task])) found.push_back(task);
-  }
-  std::sort(expected.begin(), expected.end());
-  if (std::includes(found.begin(), found.end(), expected.begin(), expected.end()) &&
-      std::includes(expected.begin(), expected.end(), found.begin(), found.end())) {
-    return;
-  }
-  const auto name = [&](std::uint32_t task) { return quote(catalog.task_names[task]); };
-  const auto names = [&](const std::vector<std::uint32_t>& tasks) {
-    return tasks.empty() ? std::string("no task") : join(tasks, ", ", name);
-  };
-  mismatches.push_back(fmt::format("expected the request of {} to be suspended, but found {}",
-                                   names(expected), names(found)));
-}
+using Numbers = std::vector<std::uint32_t>;
 
-void check_failed(std::vector<std::uint32_t> expected, const CompiledCatalog& catalog,
-                  const State& state, std::vector<std::string>& mismatches) {
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t behavior = 0; behavior < catalog.behavior_names.size(); ++behavior) {
-    if (state.has_failed(catalog.behavior_ids[behavior])) found.push_back(behavior);
-  }
+/// The tasks or behaviors that are expected and that are found, in order. `is_found`: of an id.
+template <typename Id, typename IsFound>
+std::pair<Numbers, Numbers> sets_of(Numbers expected, View<Id> ids, const IsFound& is_found) {
   std::sort(expected.begin(), expected.end());
   expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+  Numbers found;
+  for (std::uint32_t number = 0; number < ids.size(); ++number) {
+    if (is_found(ids[number])) found.push_back(number);
+  }
+  return {std::move(expected), std::move(found)};
+}
+
+void check_suspended(const Numbers& tasks, const CompiledCatalog& catalog, const State& state,
+                     std::vector<std::string>& mismatches) {
+  const auto [expected, found] =
+      sets_of(tasks, catalog.task_ids, [&](TaskId task) { return state.is_suspended(task); });
+  if (found == expected) return;
+  mismatches.push_back(fmt::format("expected the request of {} to be suspended, but found {}",
+                                   names_or(expected, catalog.task_names, "no task"),
+                                   names_or(found, catalog.task_names, "no task")));
+}
+
+void check_failed(const Numbers& behaviors, const CompiledCatalog& catalog, const State& state,
+                  std::vector<std::string>& mismatches) {
+  const auto [expected, found] = sets_of(behaviors, catalog.behavior_ids, [&](BehaviorId behavior) {
+    return state.has_failed(behavior);
+  });
   if (found == expected) return;
   mismatches.push_back(fmt::format("expected {} to have failed, but found {}",
-                                   names_or_none(catalog, expected),
-                                   names_or_none(catalog, found)));
+                                   names_or(expected, catalog.behavior_names, "none"),
+                                   names_or(found, catalog.behavior_names, "none")));
 }
 
-void check_active(std::vector<std::uint32_t> expected, const CompiledCatalog& catalog,
-                  const State& state, std::vector<std::string>& mismatches) {
-  std::vector<std::uint32_t> active;
-  for (std::uint32_t behavior = 0; behavior < catalog.behavior_names.size(); ++behavior) {
-    if (state.is_active(catalog.behavior_ids[behavior])) active.push_back(behavior);
-  }
-  std::sort(expected.begin(), expected.end());
-  expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+void check_active(const Numbers& behaviors, const CompiledCatalog& catalog, const State& state,
+                  std::vector<std::string>& mismatches) {
+  const auto [expected, active] =
+      sets_of(behaviors, catalog.behavior_ids,
+              [&](BehaviorId behavior) { return state.is_active(behavior); });
   if (active == expected) return;
   if (active.size() + expected.size() > most_names) {
-    std::vector<std::uint32_t> missing;
-    std::vector<std::uint32_t> surplus;
+    Numbers missing;
+    Numbers surplus;
     std::set_difference(expected.begin(), expected.end(), active.begin(), active.end(),
                         std::back_inserter(missing));
     std::set_difference(active.begin(), active.end(), expected.begin(), expected.end(),
@@ -173,8 +172,8 @@ void check_active(std::vector<std::uint32_t> expected, const CompiledCatalog& ca
     return;
   }
   mismatches.push_back(fmt::format("expected the active behaviors to be {}, but found {}",
-                                   names_or_none(catalog, expected),
-                                   names_or_none(catalog, active)));
+                                   names_or(expected, catalog.behavior_names, "none"),
+                                   names_or(active, catalog.behavior_names, "none")));
 }
 
 }  // namespace

@@ -53,7 +53,12 @@ const Word* Decisions::find(const GroupQuestion& question) {
   load_problem(question);
   bool is_solved = has_solution(solver_.solve(problem_, solution_).status);
   if (listener_) listener_(problem_, is_solved ? &solution_ : nullptr);
-  if (is_solved && question.must_not_make_worse) is_solved = !makes_worse();
+  if (is_solved && question.must_not_make_worse) {
+    // The best solution of more choices has the best product, too, so where it is worse, it is with
+    // fewer.
+    const TaskId first = model_.catalog().group_tasks[problem_.group];
+    is_solved = !asked_.is_worse(first, problem_, solution_);
+  }
   if (is_new) {
     if (!is_solved) return answer_of(remember(infeasible));
     if (satisfies_all(question)) return answer_of(remember(solved));
@@ -61,15 +66,6 @@ const Word* Decisions::find(const GroupQuestion& question) {
     write_key(question, true);
   }
   return answer_of(remember(is_solved ? solved : infeasible));
-}
-
-/// The best solution of more choices has the best product, too, so where it is worse, it is with
-/// fewer.
-bool Decisions::makes_worse() {
-  const TaskId first = model_.catalog().group_tasks[problem_.group];
-  const auto asked = problem_.asked_requests();
-  present_asked_ = asked_.of(first, problem_.present, asked);
-  return asked_.compare(asked_.of(first, solution_, asked), present_asked_) > 0;
 }
 
 bool Decisions::satisfies_all(const GroupQuestion& question) const {

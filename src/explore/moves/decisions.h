@@ -69,7 +69,6 @@ class Decisions {
   const Word* remember(Memory memory);
   [[nodiscard]] bool satisfies_all(const GroupQuestion& question) const;
   void load_problem(const GroupQuestion& question);
-  [[nodiscard]] bool makes_worse();
   void grow();
   void forget();
 
@@ -78,7 +77,6 @@ class Decisions {
   const DecisionListener listener_;
   Solver solver_;
   AskedProduct asked_;
-  AskedProduct::Factors present_asked_;
   Problem problem_;
   Assignment solution_;
   std::size_t value_words_;

@@ -34,22 +34,6 @@ bool close_rivals(const CompiledCatalog& catalog, const Domains& domains, LocalT
   return true;
 }
 
-/// A task that runs closes the other tasks of each limit of which as many run as may. `runs`:
-/// whether a task does. `close`: of a task, the limit and its number; false ends it.
-template <typename Runs, typename Close>
-bool close_limited(const CompiledCatalog& catalog, const Domains& domains, LocalTask task,
-                   const Runs& runs, const Close& close) {
-  for (const std::uint32_t limit : catalog.limits_of(domains.first_task() + task)) {
-    const auto members = catalog.limited[limit];
-    const auto running = std::count_if(members.begin(), members.end(), [&](TaskId member) {
-      return runs(member - domains.first_task());
-    });
-    if (static_cast<std::uint32_t>(running) < catalog.limits[limit].most) continue;
-    if (!close(limit)) return false;
-  }
-  return true;
-}
-
 /// A task that runs needs the targets of the arcs that all of its behaviors require.
 template <typename Need>
 bool need_requirements(const CompiledCatalog& catalog, const Domains& domains, LocalTask task,
@@ -240,28 +224,29 @@ bool Propagator::revise(LocalTask task) {
                                return domains_.remove_all(source, mask);
                              });
   }
+  const auto limits = catalog_.limits_of(domains_.first_task() + task);
   return close_rivals(catalog_, domains_, task,
                       [this](LocalTask rival) { return domains_.close(rival); }) &&
-         close_limited(
-             catalog_, domains_, task, [this](LocalTask one) { return domains_.needed(one); },
-             [this](std::uint32_t limit) { return close_rest(limit); }) &&
+         std::all_of(limits.begin(), limits.end(),
+                     [this](std::uint32_t limit) { return close_limited(limit); }) &&
          need_requirements(catalog_, domains_, task, [this](const Arc& /*arc*/, LocalTask target) {
            return domains_.need(target);
          });
 }
 
-/// As many tasks of a limit as may run do, or more.
-bool Propagator::close_rest(std::uint32_t limit) {
-  std::uint32_t left = catalog_.limits[limit].most;
-  for (const TaskId member : catalog_.limited[limit]) {
-    const LocalTask task = member - domains_.first_task();
-    if (domains_.needed(task)) {
-      if (left-- == 0) return false;
-    } else if (!domains_.close(task)) {
-      return false;
-    }
-  }
-  return true;
+/// Where as many tasks of a limit run as may, no other one does.
+bool Propagator::close_limited(std::uint32_t limit) {
+  const auto members = catalog_.limited[limit];
+  const auto is_needed = [this](TaskId member) {
+    return domains_.needed(member - domains_.first_task());
+  };
+  const auto running =
+      static_cast<std::uint32_t>(std::count_if(members.begin(), members.end(), is_needed));
+  const std::uint32_t most = catalog_.limits[limit].most;
+  if (running != most) return running < most;
+  return std::all_of(members.begin(), members.end(), [&](TaskId member) {
+    return is_needed(member) || domains_.close(member - domains_.first_task());
+  });
 }
 
 bool Propagator::revise_performance() {
@@ -293,27 +278,10 @@ bool CatalogTrail::follow_running(LocalTask task) {
   const auto close_rival = [&](LocalTask rival) {
     return imply(negate(runs(rival)), {Cause::Kind::literal, runs(task)});
   };
-  const auto is_running = [this](LocalTask one) { return is_true(runs(one)); };
+  const auto limits = catalog_.limits_of(first_task_ + task);
   return close_rivals(catalog_, domains_, task, close_rival) &&
-         close_limited(catalog_, domains_, task, is_running,
-                       [this](std::uint32_t limit) { return close_rest(limit); });
-}
-
-/// The reason: as many as may run do. Where more do, the next one is the conflict.
-bool CatalogTrail::close_rest(std::uint32_t limit) {
-  const auto members = catalog_.limited[limit];
-  const std::uint32_t most = catalog_.limits[limit].most;
-  reason_.clear();
-  for (const TaskId member : members) {
-    const Literal literal = runs(member - first_task_);
-    if (reason_.size() < most && is_true(literal)) reason_.push_back(literal);
-  }
-  const Cause cause = store(reason_);
-  return std::all_of(members.begin(), members.end(), [&](TaskId member) {
-    const Literal literal = runs(member - first_task_);
-    const bool is_in_reason = std::find(reason_.begin(), reason_.end(), literal) != reason_.end();
-    return is_in_reason || imply(negate(literal), cause);
-  });
+         std::all_of(limits.begin(), limits.end(),
+                     [this](std::uint32_t limit) { return close_limited(limit); });
 }
 
 bool CatalogTrail::follow_not_running(LocalTask task) {

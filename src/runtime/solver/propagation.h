@@ -82,7 +82,7 @@ class Propagator {
 
  private:
   [[nodiscard]] bool revise(LocalTask task);
-  [[nodiscard]] bool close_rest(std::uint32_t limit);
+  [[nodiscard]] bool close_limited(std::uint32_t limit);
   [[nodiscard]] bool revise_performance();
 
   const CompiledCatalog& catalog_;
@@ -111,9 +111,7 @@ class CatalogTrail final : public Trail {
   [[nodiscard]] bool follow_not_running(LocalTask task) override;
   [[nodiscard]] bool follow_value(LocalTask task, ValueId value) override;
   [[nodiscard]] bool follow_choice(LocalTask task) override;
-  [[nodiscard]] bool close_rest(std::uint32_t limit);
 
-  std::vector<Literal> reason_;
   std::span<const LocalTask> requests_;
 };
 

@@ -146,6 +146,25 @@ void Trail::set_conflict(std::span<const Literal> literals, Cause cause) {
   conflict_cause_ = cause;
 }
 
+bool Trail::close_limited(std::uint32_t limit, std::uint32_t constraint) {
+  const auto members = catalog_.limited[limit];
+  const std::uint32_t most = catalog_.limits[limit].most;
+  running_.clear();
+  for (const TaskId member : members) {
+    const Literal literal = runs(member - first_task_);
+    if (running_.size() < most && is_true(literal)) running_.push_back(literal);
+  }
+  if (running_.size() < most) return true;
+  Cause cause = store(running_);
+  cause.constraint = constraint;
+  return std::all_of(members.begin(), members.end(), [&](TaskId member) {
+    const Literal literal = runs(member - first_task_);
+    const bool is_in_reason =
+        std::find(running_.begin(), running_.end(), literal) != running_.end();
+    return is_in_reason || imply(negate(literal), cause);
+  });
+}
+
 bool Trail::learn(std::span<const Literal> clause, std::uint32_t levels) {
   if (clause.size() == 1) return imply(clause.front(), {});
   return imply(clause.front(), {Cause::Kind::nogood, nogoods_.add(clause, levels)});

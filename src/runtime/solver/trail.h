@@ -206,6 +206,8 @@ class Trail {
   /// Begins anew with the group of the domains: nothing holds or was learned.
   void clear();
   [[nodiscard]] bool imply_all_removed(LocalTask task, Literal but, Cause cause);
+  /// Where as many tasks of a limit run as may, no other one does. `constraint`: of the causes.
+  [[nodiscard]] bool close_limited(std::uint32_t limit, std::uint32_t constraint = none);
 
   // What follows from the constraints: where a task runs; where it does not, and has lost its
   // values; where it has the value; where it runs and several values are left.
@@ -242,6 +244,7 @@ class Trail {
   std::size_t next_ = 0;  ///< the first of literals_ that is not yet propagated
   std::vector<LevelMark> marks_;
   std::vector<Literal> stored_;  ///< each reason after its length
+  std::vector<Literal> running_;
   const LazyReasons* lazy_reasons_ = nullptr;
   std::vector<Literal> conflict_;
   Cause conflict_cause_;
